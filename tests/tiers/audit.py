@@ -3,6 +3,8 @@
 
     audit.py --list                     the parts, the minutes each takes, and what each sees
     audit.py [PART...]                  run these, or all but mutants, in the order of the list
+    audit.py drawn [--seed S] [--count N]
+                                        that many scenes
     audit.py --since SECONDS --begin-before MINUTES --end-before MINUTES PART...
                                         run these in this order within a budget, counted from SECONDS (of `date +%s`):
                                         a part that has not begun, or has not ended, by then is left out and no failure
@@ -45,6 +47,9 @@ PARTS = [
     suite("faults", 7, ["--only", "faults"], "seeded faults: each claim and each verb that judges has one that it must see"),
     suite("sanitizers-verbs", 15, ["--preset", "asan", "--only", "verbs"], "every verb under the sanitizers"),
     suite("sanitizers-all", 60, ["--preset", "asan"], "the quick suite, validation and reports included, under the sanitizers"),
+    Part("drawn", 20, [WRAPPER, "validate", "drawn", "--count", "8000", "--seed", time.strftime("%Y%m%d"),
+                       "--smallest", os.path.join(red.ROOT, "build", "drawn")],
+         "scenes drawn over all keys, held to relations that need no truth (other ones every day; --seed and --count)"),
     Part("mutants", 150, [sys.executable, "-B", os.path.join(red.ROOT, "tests", "mutants", "mutants.py"),
                           "--count", "400", "--seed", time.strftime("%Y%m%d"),
                           "--work", os.path.join(red.ROOT, "build", "mutants")],
@@ -61,6 +66,12 @@ def listed():
     print("part              minutes  what it sees")
     for part in PARTS:
         print("%-17s %7g  %s" % (part.name, part.minutes, part.sees))
+
+
+def with_options(part, options):
+    """The part with the options of its verb: the last of two counts."""
+    given = [word for name in ("seed", "count") if getattr(options, name) for word in ("--" + name, getattr(options, name))]
+    return dataclasses.replace(part, command=part.command + given) if part.name == "drawn" else part
 
 
 def run(part, seconds, spawn=subprocess.Popen):
@@ -92,6 +103,8 @@ def main(words):
     parser.add_argument("--since", type=float, default=time.time(), metavar="SECONDS", help="when the budget began (date +%%s)")
     parser.add_argument("--begin-before", type=float, metavar="MINUTES", help="begin no part after that")
     parser.add_argument("--end-before", type=float, metavar="MINUTES", help="stop a part that still runs then")
+    parser.add_argument("--seed", help="of the scenes of the part 'drawn'")
+    parser.add_argument("--count", help="of the scenes of the part 'drawn'")
     options = parser.parse_args(words)
     if options.list:
         return listed()
@@ -108,7 +121,7 @@ def main(words):
             continue
         say("%s: %s" % (name, BY_NAME[name].sees))
         left = None if options.end_before is None else max(1.0, 60 * options.end_before - gone)
-        status, seconds = run(BY_NAME[name], left)
+        status, seconds = run(with_options(BY_NAME[name], options), left)
         outcome = "left out: no time to end" if status is None else "passed" if status == 0 else "RED"
         ended.append((name, outcome, seconds))
         red_file = os.path.join(RED, name)

@@ -1,6 +1,7 @@
 #include "validation/drawn/changed_scene.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -166,6 +167,47 @@ std::optional<Json> with_body_far_away(Json scene, double size, double mass, int
                              {"translate", json_of_bits(1000.0 * size * *way)},
                              {"material", material},
                              {"initial_velocity", {0, 0, 0}}});
+  return scene;
+}
+
+Json with_opposite_order(Json scene) {
+  Json& bodies = scene["bodies"];
+  std::reverse(bodies.begin(), bodies.end());
+  const auto renumber = [last = bodies.size() - 1](Json& body) { body = last - body.get<std::size_t>(); };
+  if (scene.contains("attachments"))
+    for (Json& one : scene["attachments"])
+      if (one.contains("to")) renumber(one["to"]);
+  if (scene.contains("contact") && scene["contact"].contains("pairs"))
+    for (Json& pair : scene["contact"]["pairs"])
+      for (Json& body : pair["of"]) renumber(body);
+  return scene;
+}
+
+Json in_moving_frame(Json scene, const Vector3d& place, const Vector3d& velocity) {
+  const auto move = [&place](Json& point) { point = json_of_bits(vector_of(point) + place); };
+  for_each_key(scene, Shape::scene, "", [&](const SceneKey& key, Json& value, const std::string&) {
+    // places are points in metres, but for the reach of a blade
+    if (key.unit != "m" || key.name == "depth" || key.name == "translate") return;
+    if (key.type == ValueType::point) move(value);
+    if (key.type == ValueType::points)
+      for (Json& point : value) move(point);
+  });
+  for_each_body(scene, [&](Json& body) {
+    body["translate"] = json_of_bits(vector_of(body.value("translate", Json{0, 0, 0})) + place);
+  });
+  const auto speed_up = [&](Json& object) {
+    Json& value = object["initial_velocity"];
+    if (value.is_null()) value = {0, 0, 0};
+    if (value.is_object() && !value.contains("centre")) value["centre"] = json_of_bits(place);
+    Json& constant = value.is_object() ? value["constant"] : value;
+    constant = json_of_bits((constant.is_null() ? Vector3d(0, 0, 0) : vector_of(constant)) + velocity);
+  };
+  speed_up(scene);
+  if (scene.contains("bodies"))
+    for (Json& body : scene["bodies"])
+      if (body.contains("initial_velocity")) speed_up(body);
+  if (scene.contains("contact") && scene["contact"].contains("obstacles"))
+    for (Json& obstacle : scene["contact"]["obstacles"]) obstacle["velocity"] = json_of_bits(velocity);
   return scene;
 }
 

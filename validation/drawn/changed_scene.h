@@ -2,6 +2,7 @@
 // A scene written otherwise, so that its motion is the same in other units, in other axes, or by other parts of the
 // code.
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -33,6 +34,15 @@ nlohmann::ordered_json with_list_of_bodies(nlohmann::ordered_json scene);
 /// everywhere. `size` [m] and `mass` [kg] are those of all that is there, `dimension` that of the other body.
 std::optional<nlohmann::ordered_json> with_body_far_away(nlohmann::ordered_json scene, double size, double mass,
                                                          int dimension);
+
+/// With its bodies in the opposite order.
+/// pre  it has a list of bodies
+nlohmann::ordered_json with_opposite_order(nlohmann::ordered_json scene);
+
+/// Seen from a frame in which its origin is at a place and moves at a velocity.
+/// pre  nothing is held in space, and no obstacle moves
+nlohmann::ordered_json in_moving_frame(nlohmann::ordered_json scene, const Eigen::Vector3d& place,
+                                       const Eigen::Vector3d& velocity);
 
 /// With nothing that moves for a number of steps, and then all that the scene has but gravity and velocities at the
 /// start.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -234,6 +235,44 @@ DrawnMotion in_turned_axes(DrawnMotion motion) {
         const std::size_t row = k % 3, column = k / 3 % 3;
         q.values[k] = old[k - k % 9 + 3 * ((column + 1) % 3) + (row + 1) % 3];
       }
+  }
+  return motion;
+}
+
+DrawnMotion out_of_moving_frame(DrawnMotion motion, const Vector3d& place, const Vector3d& velocity) {
+  // each time has its quantity of time
+  auto first = motion.quantities.begin();
+  for (auto q = first; q != motion.quantities.end(); ++q) {
+    if (!q->name.starts_with("time at")) continue;
+    const double time = q->values[0];
+    const auto subtract = [](Quantity& from, const Vector3d& what) {
+      for (std::size_t k = 0; k < from.values.size(); ++k) from.values[k] -= what[static_cast<Eigen::Index>(k % 3)];
+    };
+    for (; first != q; ++first) {
+      if (first->name.starts_with("positions")) subtract(*first, place + time * velocity);
+      if (first->name.starts_with("displacements")) subtract(*first, time * velocity);
+      if (first->name.starts_with("velocities at")) subtract(*first, velocity);
+    }
+  }
+  return motion;
+}
+
+DrawnMotion in_order_of(DrawnMotion motion, const std::vector<std::size_t>& number) {
+  std::vector<std::size_t> order;
+  // the numbers of points of a time come after some of its quantities
+  for (auto numbers = motion.quantities.begin(); numbers != motion.quantities.end(); ++numbers) {
+    if (!numbers->name.starts_with("numbers of points")) continue;
+    order.resize(numbers->values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {},
+                             [&](std::size_t k) { return number.at(static_cast<std::size_t>(numbers->values[k])); });
+    const std::string when = numbers->name.substr(numbers->name.find(" at "));
+    for (Quantity& q : motion.quantities) {
+      if (!of_each_vertex(q) || !q.name.ends_with(when) || q.values.empty()) continue;
+      const std::size_t each = q.values.size() / order.size();
+      const std::vector<double> old = q.values;
+      for (std::size_t k = 0; k < q.values.size(); ++k) q.values[k] = old[each * order[k / each] + k % each];
+    }
   }
   return motion;
 }

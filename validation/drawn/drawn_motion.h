@@ -49,6 +49,11 @@ DrawnMotion in_units(DrawnMotion motion, const Dimensions& powers);
 /// The same, of a run in other axes: the old y, z and x are the new x, y and z.
 DrawnMotion in_turned_axes(DrawnMotion motion);
 
+/// The same, of a run in a frame in which the origin is at a place and moves.
+DrawnMotion out_of_moving_frame(DrawnMotion motion, const Eigen::Vector3d& place, const Eigen::Vector3d& velocity);
+/// The same, with the vertices in the order of other numbers: `number` has that of each point.
+DrawnMotion in_order_of(DrawnMotion motion, const std::vector<std::size_t>& number);
+
 /// The first difference of bits, in words; none where all are equal. NaN equals NaN.
 std::optional<std::string> different_bits(const DrawnMotion& expected, const DrawnMotion& found);
 /// Of these quantities as many values as the other run has, without those of all bodies together: what a run with

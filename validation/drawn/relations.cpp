@@ -106,17 +106,17 @@ Json in_shorter_steps(const JudgedScene& s, int parts) {
 }
 
 /// Is the difference of two runs one of rounding? `own` are the quantities of the scene's motion that are expected in
-/// another form. Where a method damps spring by spring, or strain by strain, in an order, another order is allowed
-/// four times what halving the step changes.
+/// another form. Where `order_counts`, as that of dampers or of contacts with losses, four times what halving the step
+/// changes is allowed, too.
 RelationFound unless_rounding(const JudgedScene& s, const DrawnMotion& own, const DrawnMotion& expected,
-                              const DrawnMotion& found) {
+                              const DrawnMotion& found, bool order_counts) {
   constexpr double share = 0x1p-34;
   std::optional<DrawnMotion> halved;
-  if (s.is_swept()) {
-    if (!s.file().events.empty()) return does_not_apply("the order of dampers counts, and an event");
+  if (order_counts) {
+    if (!s.file().events.empty()) return does_not_apply("an order counts, and an event");
     halved = like(s.run(in_shorter_steps(s, 2), {.parts = 2}), own);
     if (halved->end != own.end || halved->quantities.size() != own.quantities.size())
-      return does_not_apply("the order of dampers counts, and the step");
+      return does_not_apply("an order counts, and the step");
   }
   for (const double sign : {1.0, -1.0}) {
     auto allowed = allowances(own, like(s.run(with_disturbance(s.json(), sign * share)), own), s.scales());
@@ -134,7 +134,7 @@ RelationFound judge_units(const JudgedScene& s) {
   const DrawnMotion found =
       in_units(s.run(in_units(s.json(), powers, s.dimension())), {-powers.length, -powers.time, -powers.mass});
   // rows of fixed vertices in a matrix have no unit
-  if (s.is_implicit()) return unless_rounding(s, s.motion(), s.motion(), found);
+  if (s.is_implicit()) return unless_rounding(s, s.motion(), s.motion(), found, s.is_swept());
   return unless(different_bits(s.motion(), found));
 }
 
@@ -145,7 +145,8 @@ RelationFound judge_idle_event(const JudgedScene& s) {
   // corners of cells are listed from other ones on
   const DrawnMotion expected = without(s.motion(), "corners"),
                     found = without(s.run(with_idle_event(s.json())), "corners");
-  if (std::ranges::any_of(s.file().forces, &SceneForce::follows)) return unless_rounding(s, expected, expected, found);
+  if (std::ranges::any_of(s.file().forces, &SceneForce::follows))
+    return unless_rounding(s, expected, expected, found, s.is_swept());
   return unless(different_bits(expected, found));
 }
 
@@ -156,29 +157,92 @@ RelationFound judge_list(const JudgedScene& s) {
   return unless(different_bits(s.motion(), s.run(with_list_of_bodies(s.json()))));
 }
 
+/// Why bodies cannot be added or exchanged; empty where they can.
+std::string counts_bodies_together(const JudgedScene& s) {
+  const std::string text = s.json().dump();
+  if (names_numbers(s.json())) return "it has numbers of points or cells, which scenes of bodies have not";
+  if (text.find("\"random\"") != std::string::npos) return "cells are drawn from all bodies";
+  if (text.find("\"most_per_step\"") != std::string::npos) return "tears are counted in all bodies";
+  if (has<Refine>(s.file().events)) return "vertices of refinement have no body";
+  if (has<Remove>(s.file().events)) return "parts of vertices change places where cells are removed";
+  return "";
+}
+
+RelationFound judge_opposite_order(const JudgedScene& s) {
+  const std::size_t count = s.file().bodies().size();
+  if (count == 1) return does_not_apply("it is one body");
+  if (const std::string reason = counts_bodies_together(s); !reason.empty()) return does_not_apply(reason);
+  // of each point of the bodies in the opposite order
+  std::vector<std::size_t> number;
+  for (std::size_t body = count; body-- > 0;)
+    for (std::size_t p = s.first_points()[body]; p < s.first_points()[body + 1]; ++p) number.push_back(p);
+  const DrawnMotion own = first_of(s.motion(), s.motion());
+  return unless_rounding(s, own, own, like(in_order_of(s.run(with_opposite_order(s.json())), number), own),
+                         s.is_swept() || s.has_losses());
+}
+
+/// [m] The root mean square of the difference of positions, at the time at which it is largest.
+double distance(const DrawnMotion& a, const DrawnMotion& b) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < std::min(a.quantities.size(), b.quantities.size()); ++k) {
+    const std::vector<double>&x = a.quantities[k].values, &y = b.quantities[k].values;
+    if (!a.quantities[k].name.starts_with("positions") || x.empty()) continue;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) sum += std::pow(x[i] - y[i], 2);
+    largest = std::max(largest, std::sqrt(3.0 * sum / static_cast<double>(x.size())));
+  }
+  return largest;
+}
+
+RelationFound judge_moving_frame(const JudgedScene& s) {
+  const SceneFile& file = s.file();
+  if (!file.fixed.empty() || !file.driven.empty()) return does_not_apply("something holds it in space");
+  if (std::ranges::any_of(file.attachments, [](const SceneAttachment& a) { return !a.to; }))
+    return does_not_apply("it is attached to space");
+  if (std::ranges::any_of(file.obstacles, &SceneObstacle::moves)) return does_not_apply("an obstacle moves");
+  if (file.material.viscosity > 0.0) return does_not_apply("viscosity is that of surroundings at rest");
+  if (file.sleep) return does_not_apply("what moves with the frame does not sleep");
+  if (!file.events.empty()) return does_not_apply("events choose by place");
+  if (file.duration == 0.0) return does_not_apply("it has no duration");
+  if (file.solver == "conjugate-gradients") return does_not_apply("its solver's tolerance is a share of velocities");
+  if (file.unstable_step != UnstableStep::warn && file.has_contact())
+    return does_not_apply("its speed counts in the forecast of contacts, by which steps are refused or divided");
+  const Vector3d place = s.scales().length * Vector3d(0.37, -0.23, 0.31);
+  const Vector3d velocity = s.scales().length / file.duration * Vector3d(0.19, 0.41, -0.29);
+  const auto run = [&](int parts) {
+    const Json moving = in_moving_frame(in_shorter_steps(s, parts), place, velocity);
+    return out_of_moving_frame(s.run(moving, {.parts = static_cast<std::uint64_t>(parts)}), place, velocity);
+  };
+  if (file.obstacles.empty()) {
+    const DrawnMotion own = first_of(s.motion(), s.motion());
+    return unless_rounding(s, own, own, like(run(1), own), s.is_swept());
+  }
+  // an obstacle that moves stands still within a step
+  const double before = distance(s.motion(), run(1));
+  const double after = distance(s.run(in_shorter_steps(s, 4), {.parts = 4}), run(4));
+  if (after <= 0.6 * before + 1e-6 * s.scales().length) return {};
+  return breaks(
+      fmt::format("in steps a quarter as long positions are {:.3g} m apart, and {:.3g} m in its own", after, before));
+}
+
 RelationFound judge_far_body(const JudgedScene& s) {
-  if (names_numbers(s.json()))
-    return does_not_apply("it has numbers of points or cells, which scenes of bodies have not");
+  if (const std::string reason = counts_bodies_together(s); !reason.empty()) return does_not_apply(reason);
   if (s.is_implicit() || s.is_adaptive()) return does_not_apply("its integrator has one tolerance for all bodies");
   if (s.is_swept()) return does_not_apply("the order of dampers counts, and it is that of all bodies");
-  if (s.json().dump().find("\"random\"") != std::string::npos) return does_not_apply("cells are drawn from all bodies");
-  if (s.json().dump().find("\"most_per_step\"") != std::string::npos)
-    return does_not_apply("tears are counted in all bodies");
-  if (has<Refine>(s.file().events)) return does_not_apply("vertices of refinement have no body");
-  if (has<Remove>(s.file().events)) return does_not_apply("parts of vertices change places where cells are removed");
+  if (!s.motion().end.empty()) return does_not_apply("the run ends early");
   if (s.file().bending.any()) return does_not_apply("the other body would resist bending, too");
   if (s.file().unstable_step != UnstableStep::warn) return does_not_apply("its steps depend on all bodies");
   const std::optional<Json> with =
       with_body_far_away(s.json(), s.scales().length, s.scales().mass, s.dimension().value_or(3));
   if (!with) return does_not_apply("its planes reach everywhere");
   const DrawnMotion found = s.run(*with), expected = first_of(s.motion(), found);
-  return unless_rounding(s, expected, expected, first_of(found, expected));
+  return unless_rounding(s, expected, expected, first_of(found, expected), s.is_swept());
 }
 
 // ---- rounding
 
 RelationFound judge_axes(const JudgedScene& s) {
-  return unless_rounding(s, s.motion(), in_turned_axes(s.motion()), s.run(in_turned_axes(s.json())));
+  return unless_rounding(s, s.motion(), in_turned_axes(s.motion()), s.run(in_turned_axes(s.json())), s.is_swept());
 }
 
 // ---- physics
@@ -211,8 +275,10 @@ RelationFound judge_momentum(const JudgedScene& s) {
   if (!file.obstacles.empty()) return does_not_apply("obstacles push it");
   if (file.material.viscosity > 0.0) return does_not_apply("viscosity brakes it");
   if (file.sleep) return does_not_apply("sleep takes momentum");
-  if (file.integrator == "local-global" && !file.touches.empty())
-    return does_not_apply("twenty iterations of local-global need not solve its equations where bodies touch");
+  // those that do not iterate until their equations are solved
+  static constexpr std::array linear{"local-global", "ros2", "baraff-witkin"};
+  if (!file.touches.empty() && std::ranges::find(linear, file.integrator) != linear.end())
+    return does_not_apply("where bodies touch, the tangent has blocks of each alone, which changes momentum");
   if (std::ranges::any_of(file.attachments, [](const SceneAttachment& a) { return !a.to; }))
     return does_not_apply("it is attached to space");
   for (const SceneEvent& event : file.events)
@@ -243,19 +309,6 @@ RelationFound judge_momentum(const JudgedScene& s) {
                             difference, moved, bound));
 }
 
-/// [m] The root mean square of the difference of positions, at the time at which it is largest.
-double distance(const DrawnMotion& a, const DrawnMotion& b) {
-  double largest = 0.0;
-  for (std::size_t k = 0; k < std::min(a.quantities.size(), b.quantities.size()); ++k) {
-    const std::vector<double>&x = a.quantities[k].values, &y = b.quantities[k].values;
-    if (!a.quantities[k].name.starts_with("positions") || x.empty()) continue;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < x.size(); ++i) sum += std::pow(x[i] - y[i], 2);
-    largest = std::max(largest, std::sqrt(3.0 * sum / static_cast<double>(x.size())));
-  }
-  return largest;
-}
-
 RelationFound judge_limit(const JudgedScene& s) {
   const SceneFile& file = s.file();
   if (!file.events.empty()) return does_not_apply("an event may choose other cells in other steps");
@@ -283,6 +336,57 @@ RelationFound judge_limit(const JudgedScene& s) {
   return breaks(fmt::format(
       "a sixteenth of the step comes {:.3g} m from rk4, where the differences of halved steps allow {:.3g} m", found,
       bound));
+}
+
+/// [J] What no motion should change, at the times of a run: all energies, and what contact has taken from them.
+std::vector<double> accounts_of(const DrawnMotion& motion, double& largest) {
+  std::vector<double> sums;
+  for (const Quantity& q : motion.quantities) {
+    if (q.unit != dimensions_of("J") || q.name.starts_with("energy of sleepers")) continue;
+    if (q.kind != Quantity::Kind::scalars) continue;
+    if (q.name.starts_with("kinetic")) sums.push_back(0.0);
+    // of contact: its energy, what restitution and friction took, and what obstacles have supplied
+    const bool is_of_contact = q.name.starts_with("energies of contact");
+    for (std::size_t k = 0; k < q.values.size(); ++k) {
+      sums.back() += is_of_contact && k == 3 ? -q.values[k] : q.values[k];
+      if (!q.name.starts_with("energy of gravity")) largest = std::max(largest, std::abs(q.values[k]));
+    }
+  }
+  return sums;
+}
+
+RelationFound judge_energy(const JudgedScene& s) {
+  const SceneFile& file = s.file();
+  if (file.material.viscosity > 0.0) return does_not_apply("viscosity takes energy that is not counted");
+  if (std::ranges::any_of(file.tissues(), [](const SceneFile::Tissue& tissue) {
+        return tissue.material.damping > 0.0 || tissue.material.damping_time > 0.0;
+      }))
+    return does_not_apply("damping takes energy that is not counted");
+  if (!file.driven.empty()) return does_not_apply("drives supply energy that is not counted");
+  if (!file.events.empty()) return does_not_apply("an event takes energy");
+  if (file.sleep) return does_not_apply("sleep takes energy");
+  if (file.unstable_step == UnstableStep::substep) return does_not_apply("its steps are divided already");
+  // of first order, for motions that they damp
+  static constexpr std::array dissipative{"local-global", "backward-euler", "baraff-witkin"};
+  if (std::ranges::find(dissipative, file.integrator) != dissipative.end())
+    return does_not_apply("its method takes energy");
+  const auto run = [&](int parts) {
+    return s.run(in_shorter_steps(s, parts), {.parts = static_cast<std::uint64_t>(parts)});
+  };
+  const DrawnMotion coarse = run(4), fine = run(16);
+  if (!coarse.end.empty() || !fine.end.empty()) return does_not_apply("a run ends early");
+  double largest = 0.0;
+  const auto drift_of = [&largest](const DrawnMotion& motion) {
+    const std::vector<double> sums = accounts_of(motion, largest);
+    const auto [least, most] = std::ranges::minmax(sums);
+    return most - least;
+  };
+  const double before = drift_of(coarse), after = drift_of(fine);
+  if (after <= 0.6 * before + 1e-4 * largest) return {};
+  return breaks(
+      fmt::format("in steps a sixteenth as long the sum of all energies changes by {:.3g} J, of {:.3g}, and in "
+                  "steps a quarter as long by {:.3g} J",
+                  after, largest, before));
 }
 
 RelationFound judge_sleep(const JudgedScene& s) {
@@ -330,6 +434,7 @@ JudgedScene::JudgedScene(Json json, fs::path folder, fs::path scratch)
            });
   implicit_ = make_integrator(file_.integrator)->scheme().implicit;
   const Problem problem = make_problem(file_);
+  first_points_ = problem.bodies.point;
   std::set<int> dimensions;
   for (const CellKind kind : problem.mesh.kinds) dimensions.insert(dartboard::dimension(kind));
   if (!problem.mesh.links.empty()) dimensions.insert(1);
@@ -345,6 +450,11 @@ JudgedScene::JudgedScene(Json json, fs::path folder, fs::path scratch)
     if (q.name.starts_with("mass at")) mass = std::max(mass, q.values[0]);
   // where events at the start leave nothing, nothing is compared
   scales_ = {(high - low).maxCoeff(), file_.step, mass > 0.0 ? mass : 1.0};
+}
+
+bool JudgedScene::has_losses() const {
+  const auto is_lossy = [](const auto& one) { return one.law.friction > 0.0 || one.law.restitution < 1.0; };
+  return std::ranges::any_of(file_.obstacles, is_lossy) || std::ranges::any_of(file_.touches, is_lossy);
 }
 
 DrawnMotion JudgedScene::run(const Json& json, const DrawnRunOptions& options) const {
@@ -364,11 +474,17 @@ std::span<const Relation> relations() {
       Relation{"idle-event", "with an event that changes nothing, which keeps the map",
                "same bits; where a pressure follows its faces, rounding", judge_idle_event},
       Relation{"list", "the body as the only one of a list", "same bits", judge_list},
+      Relation{"opposite-order", "bodies listed in the opposite order", "rounding", judge_opposite_order},
+      Relation{"moving-frame", "seen from a frame elsewhere that moves",
+               "rounding; with obstacles, 0.6 of what differs in steps four times as long, and 1e-6 of the size",
+               judge_moving_frame},
       Relation{"far-body", "with another body far away", "rounding", judge_far_body},
       Relation{"axes", "y, z and x called x, y and z", "rounding", judge_axes},
       Relation{"sleep", "at rest for eight steps before it starts, with and without sleep", "1e-6", judge_sleep},
       Relation{"momentum", "it changes by gravity and forces",
                "1e-12 of the momenta of all vertices; 1e-5 with an implicit integrator", judge_momentum},
+      Relation{"energy", "energies and losses of contact add up to the same",
+               "0.6 of what they change in steps four times as long, and 1e-4 of the largest", judge_energy},
       Relation{"limit", "short steps, and those of rk4, come to one place",
                "4 times what halving both steps once more changes, and 1e-7 of the size", judge_limit},
   };

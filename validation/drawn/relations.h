@@ -34,7 +34,11 @@ class JudgedScene {
   bool is_implicit() const { return implicit_; }
   /// Are dampers taken one after the other?
   bool is_swept() const { return swept_; }
+  /// Has a contact friction, or restitution below 1?
+  bool has_losses() const;
   bool is_adaptive() const { return file_.integrator == "dormand-prince-54"; }
+  /// Where the points of each body begin, and after the last of them their number.
+  const std::vector<std::size_t>& first_points() const { return first_points_; }
   DrawnMotion run(const nlohmann::ordered_json& json, const DrawnRunOptions& options = {}) const;
 
  private:
@@ -44,6 +48,7 @@ class JudgedScene {
   DrawnMotion motion_;
   std::optional<int> dimension_;
   MotionScales scales_;
+  std::vector<std::size_t> first_points_;
   bool implicit_ = false, swept_ = false;
 };
 

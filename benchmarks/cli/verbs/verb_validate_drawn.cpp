@@ -26,6 +26,8 @@ void add_validate_drawn(CLI::App& validate, Outcome& outcome) {
   verb->add_option("--first", options->plan.first, "number of the first scene [0]");
   verb->add_option("--relation", options->plan.relation, "only this one [all]");
   verb->add_option("--steps", options->plan.steps, "of SCENE, at most [100]")->check(CLI::PositiveNumber);
+  verb->add_option("--smallest", options->plan.folder,
+                   "folder for scenes that break a relation, cut down to what breaks it [.]");
   verb->callback([options, &outcome] {
     options->plan.seed = options->seed;
     options->plan.count = options->count.value_or(options->quick ? 100 : 1000);

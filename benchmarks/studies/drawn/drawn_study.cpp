@@ -49,6 +49,7 @@ std::string write_smallest(const Json& scene, const std::string& name, const Rel
                            const fs::path& scratch, const fs::path& folder) {
   const fs::path file = folder / fmt::format("{}-{}.json", relation.name, name);
   if (fs::exists(file)) return "";
+  fs::create_directories(folder);
   std::ofstream out(file);
   out << smallest_breaking(scene, relation, meshes, scratch).dump(1) << "\n";
   if (!out) throw IoError(fmt::format("{}: cannot be written", file.string()));
@@ -111,7 +112,6 @@ Table trials_table(const std::vector<RelationTrial>& trials) {
 void add_broken(const DrawnResults& results, Report& report) {
   if (results.broken.empty()) return;
   report.tables.push_back({"broken", "Relations that break", broken_table(results)});
-  report.disagreements.emplace_back("A relation breaks: see above.");
 }
 
 Json numbers_of(const DrawnResults& results) {
@@ -143,6 +143,7 @@ Report of_scene(const DrawnPlan& plan, StudyLog& log) {
   report.tables.push_back({"relations", fmt::format("Relations of the first steps of {}, {} at most", name, plan.steps),
                            trials_table(trials)});
   add_broken(results, report);
+  if (!results.broken.empty()) report.disagreements.emplace_back("A relation breaks: see above.");
   report.numbers = numbers_of(results);
   std::size_t holds = 0;
   for (const RelationTrial& trial : trials) holds += trial.found.outcome == RelationOutcome::holds;

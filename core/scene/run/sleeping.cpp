@@ -213,26 +213,25 @@ bool Sleeping::body_changed() {
 
 bool Sleeping::loads_changed() {
   const bool others = update<double>(pressures_, body_.pressures());
-  if (done_.asleep == 0) {
-    update<Vector3d>(pull_, body_.pull());
-    return false;
-  }
   const VertexColumns& v = body_.vertices();
   bool any = false;
   const auto wake_at = [&](std::uint32_t vertex) {
     Component& c = components_[component_[vertex]];
+    c.slow = 0;  // one that is awake must not fall asleep before it has felt the load
     if (!c.asleep) return;
     wake(c);
     any = true;
   };
-  for (std::uint32_t i = 0; i < v.size(); ++i)
-    if (!v.velocity[i].isZero(0.0) || (!pull_.empty() && pull_[i] != v.pull[i])) wake_at(i);
+  for (std::uint32_t i = 0; i < v.size(); ++i) {
+    const bool is_driven = done_.asleep > 0 && components_[component_[i]].asleep && !v.velocity[i].isZero(0.0);
+    if (is_driven || (!pull_.empty() && pull_[i] != v.pull[i])) wake_at(i);
+  }
   if (others)
     for (const PressedFace& face : body_.face_pressure()->rows()) wake_at(face.corner[0]);
   update<Vector3d>(pull_, body_.pull());
   if (any)
     make_part();
-  else
+  else if (part_)
     part_->take(body_.motion(), body_.pull());
   return any;
 }

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 struct DrawnRelations : FolderTest, testing::WithParamInterface<int> {};
 
 TEST_P(DrawnRelations, Hold) {
-  constexpr int each = 50;
+  constexpr int each = 20;
   for (int number = each * GetParam(); number < each * (GetParam() + 1); ++number)
     for (const auto& [relation, found] : try_relations(drawn_scene(1, static_cast<std::uint64_t>(number)), "", folder_))
       EXPECT_NE(found.outcome, RelationOutcome::breaks)
@@ -28,7 +28,7 @@ TEST_P(DrawnRelations, Hold) {
           << ": " << found.words;
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, DrawnRelations, testing::Range(0, 8));
+INSTANTIATE_TEST_SUITE_P(Of, DrawnRelations, testing::Range(0, 20));
 
 /// A sheet that falls on a floor and is cut.
 Json falling_sheet() {

@@ -54,6 +54,19 @@ TEST(SceneEvents, DrawFurtherCellsEachTimeTheyRepeat) {
 
 // ---- refinement of one of the six tetrahedra around the diagonal of a cube
 
+// All cells of a ball have edges of one length at rest, but for rounding.
+TEST(SceneEvents, RefineTheSameEdgesOfABodyThatIsTurned) {
+  const auto corners_after = [](double degrees) {
+    Json scene = with_events(moving_box(),
+                             R"([{"at": 0, "refine": {"cells": {"sphere": {"centre": [0, 0, 0], "radius": 9}}}}])");
+    scene["body"] = {{"generate", {{"ball", {{"layers", 2}, {"radius", 0.1}}}}},
+                     {"rotate", {{"axis", {1, 1, 1}}, {"degrees", degrees}}}};
+    return Simulation(parse(scene)).frame().mesh.nodes;
+  };
+  const std::vector<std::uint32_t> expected = corners_after(0.0);
+  for (const double degrees : {17.0, 120.0, 240.0}) EXPECT_EQ(corners_after(degrees), expected) << degrees;
+}
+
 Simulation refined(const char* how) {
   Json scene = with_events(moving_box(), how);
   scene["body"]["generate"]["box"] = {{"cells", {1, 1, 1}}, {"spacing", 1}};

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "core/scene/body/attached_points.h"
@@ -113,6 +115,29 @@ TEST(SceneAttachments, AreToTheFirstCellThatAVertexIsIn) {
       }
     }
   }
+}
+
+// The small box hovers over corners and edges of cells of the large one: several are equally near, but for rounding.
+TEST(SceneAttachments, AreToTheSameCellsOfBodiesThatAreTurned) {
+  const auto cells_of = [](double degrees) {
+    Json json = two_boxes();
+    json["bodies"][0]["generate"]["box"] = {{"cells", {2, 2, 2}}, {"spacing", 0.1}};
+    json["bodies"][1]["generate"]["box"] = {{"cells", {2, 2, 1}}, {"spacing", 0.05}};
+    const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180.0, Vector3d(1, 1, 1).normalized());
+    for (Json& body : json["bodies"]) body["rotate"] = {{"axis", {1, 1, 1}}, {"degrees", degrees}};
+    const Vector3d at = turn * Vector3d(0.05, 0.05, 0.22);
+    json["bodies"][0]["translate"] = {0, 0, 0};
+    json["bodies"][1]["translate"] = {at.x(), at.y(), at.z()};
+    json["attachments"] =
+        Json::array({{{"sphere", {{"centre", {0, 0, 0}}, {"radius", 9}}}, {"to", 0}, {"stiffness", 100}}});
+    const SceneFile scene = parse(json);
+    std::vector<std::uint32_t> cells;
+    for (const Attachment& one : find_attachments(scene, make_problem(scene)).at(0).points) cells.push_back(one.cell);
+    return cells;
+  };
+  const std::vector<std::uint32_t> expected = cells_of(0.0);
+  ASSERT_EQ(expected.size(), 18u);
+  for (const double degrees : {17.0, 120.0, 240.0}) EXPECT_EQ(cells_of(degrees), expected) << degrees;
 }
 
 // Where a vertex is in no cell, it is not farther away from one than the longest edge.

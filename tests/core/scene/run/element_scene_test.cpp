@@ -329,6 +329,21 @@ TEST(ElementScene, RefinesTetrahedraAmongOtherCells) {
   }
 }
 
+TEST(ElementScene, NamesTheFileAndTheEventThatIsRefusedWhenItIsDue) {
+  Json scene = in_cells(moving_box(), "mixed");
+  scene["body"]["generate"]["box"]["cells"] = {2, 2, 2};
+  Simulation simulation(parse(
+      with_events(scene, R"([{"at": 0.002, "refine": {"cells": {"box": {"min": [-1, -1, -1], "max": [1, 1, 1]}}}}])")));
+  EXPECT_FALSE(simulation.advance());
+  try {
+    (void)simulation.advance();
+    ADD_FAILURE() << "taken";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string_view(error.what()).starts_with("file: /events/0/refine/at: is \"longest edge\""))
+        << error.what();
+  }
+}
+
 // Two bodies, one of tetrahedra and one of hexahedra: the first has edges of its own.
 TEST(ElementScene, RefinesABodyOfTetrahedraBesideOneOfHexahedra) {
   Json scene = of_elements();
