@@ -49,12 +49,12 @@ std::set<std::string> outcomes_of(const Json& scene, RelationOutcome outcome) {
 TEST(Relations, ApplyWhereTheyHaveAMeaning) {
   EXPECT_EQ(outcomes_of(falling_sheet(), RelationOutcome::breaks), std::set<std::string>{});
   EXPECT_EQ(outcomes_of(falling_sheet(), RelationOutcome::does_not_apply),
-            (std::set<std::string>{"files", "limit", "momentum"}));
+            (std::set<std::string>{"energy", "files", "limit", "momentum", "moving-frame", "opposite-order"}));
   Json free = falling_sheet();
   free.erase("contact");
   free.erase("events");
   free["integrator"] = "verlet";
-  EXPECT_EQ(outcomes_of(free, RelationOutcome::does_not_apply), (std::set<std::string>{"files"}));
+  EXPECT_EQ(outcomes_of(free, RelationOutcome::does_not_apply), (std::set<std::string>{"files", "opposite-order"}));
 }
 
 TEST(Relations, AreFoundByName) {
@@ -99,6 +99,35 @@ TEST(Relations, SeeAnAxisThatIsNotTurned) {
   EXPECT_FALSE(differs_by_more(expected, motion_of(other), *allowed));
   other["gravity"] = {0, 0, -9.81};
   EXPECT_TRUE(differs_by_more(expected, motion_of(other), *allowed));
+}
+
+TEST(Relations, SeeABodyThatDoesNotMoveWithTheFrame) {
+  Json scene = falling_sheet();
+  scene.erase("contact");
+  scene.erase("events");
+  const Eigen::Vector3d place(1, 2, 3), velocity(4, 5, 6);
+  const DrawnMotion own = first_of(motion_of(scene), motion_of(scene));
+  const auto allowed = allowances(own, first_of(motion_of(with_disturbance(scene, 0x1p-34)), own),
+                                  {.length = 0.3, .time = 0.001, .mass = 0.06});
+  ASSERT_TRUE(allowed);
+  const auto found = [&](const Json& moving) {
+    return first_of(out_of_moving_frame(motion_of(moving), place, velocity), own);
+  };
+  Json moving = in_moving_frame(scene, place, velocity);
+  EXPECT_FALSE(differs_by_more(own, found(moving), *allowed));
+  moving["initial_velocity"][1] = 5.1;
+  EXPECT_TRUE(differs_by_more(own, found(moving), *allowed));
+}
+
+TEST(Relations, CompareBodiesInTheOppositeOrderVertexByVertex) {
+  Json scene = falling_sheet();
+  for (const char* key : {"body", "contact", "events"}) scene.erase(key);
+  scene["bodies"] = Json::parse(R"([{"generate": {"sheet": {"cells": [1, 1], "spacing": 0.1}}},
+      {"generate": {"sheet": {"cells": [2, 1], "spacing": 0.2}}, "translate": [0, 0, 1]}])");
+  const DrawnMotion own = first_of(motion_of(scene), motion_of(scene)), other = motion_of(with_opposite_order(scene));
+  const std::vector<std::size_t> number{4, 5, 6, 7, 8, 9, 0, 1, 2, 3};
+  EXPECT_FALSE(different_bits(own, first_of(in_order_of(other, number), own)));
+  EXPECT_TRUE(different_bits(own, first_of(other, own)));
 }
 
 TEST(Relations, LeaveOpenWhatRoundingDecides) {

@@ -132,7 +132,8 @@ TEST(SceneAttachments, AreToTheSameCellsOfBodiesThatAreTurned) {
         Json::array({{{"sphere", {{"centre", {0, 0, 0}}, {"radius", 9}}}, {"to", 0}, {"stiffness", 100}}});
     const SceneFile scene = parse(json);
     std::vector<std::uint32_t> cells;
-    for (const Attachment& one : find_attachments(scene, make_problem(scene)).at(0).points) cells.push_back(one.cell);
+    const std::vector<AttachedPoints> found = find_attachments(scene, make_problem(scene));
+    for (const Attachment& one : found.at(0).points) cells.push_back(one.cell);
     return cells;
   };
   const std::vector<std::uint32_t> expected = cells_of(0.0);

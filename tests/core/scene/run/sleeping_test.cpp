@@ -297,6 +297,21 @@ TEST(Sleeping, EndsWhenAForceBegins) {
   EXPECT_GT(risen_since_asleep(scene), 0.01);
 }
 
+// Slow long enough at the very boundary at which the force begins: a body that fell asleep there would never feel it.
+TEST(Sleeping, DoesNotBeginWhenAForceDoes) {
+  for (const int step : {11, 12, 13, 14, 15}) {
+    Json scene = two_cubes(1.0);
+    scene["bodies"].erase(1);
+    scene["sleep"] = {{"speed", 1e-3}, {"time", 12 * scene["step"].get<double>()}};
+    scene["forces"] = Json::array({{{"plane", {{"point", {0, 0, 0}}, {"normal", {0, 0, 1}}}},
+                                    {"force", {0, 0, 30}},
+                                    {"from", step * scene["step"].get<double>()}}});
+    Simulation simulation(parse(scene));
+    take_steps(simulation, 25);
+    EXPECT_GT(simulation.diagnostics().momentum.z(), 0.0) << step;
+  }
+}
+
 TEST(Sleeping, EndsWhenADriveBegins) {
   Json scene = on_a_floor();
   scene["driven"] =
