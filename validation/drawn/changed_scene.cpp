@@ -144,7 +144,7 @@ std::optional<Json> with_body_far_away(Json scene, double size, double mass, int
   std::optional<Vector3d> way;
   double margin = 0.2;
   for (int k = 0; k < 27; ++k) {
-    const Vector3d direction = Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    const Vector3d direction = Eigen::Vector3i(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).cast<double>();
     if (k == 13) continue;
     double least = 1.0;
     for (const Vector3d& side : sides) least = std::min(least, side.dot(direction.normalized()));

@@ -163,7 +163,8 @@ double different_values(const Quantity& a, const Quantity& b) {
   for (std::size_t i = 0; i < a.values.size(); ++i)
     if (!same(a.values[i], b.values[i])) {
       const double difference = std::abs(a.values[i] - b.values[i]);
-      largest = std::isnan(difference) ? infinity : std::max(largest, difference);
+      if (std::isnan(difference)) return infinity;
+      largest = std::max(largest, difference);
     }
   return largest;
 }

@@ -288,7 +288,7 @@ class SceneOfAllKeys {
   }
 
   Json velocity() {
-    const Json constant = json_of(speed_ * draw_.uniform(0.0, 0.5) * draw_.direction());
+    Json constant = json_of(speed_ * draw_.uniform(0.0, 0.5) * draw_.direction());
     if (happens(0.4)) return constant;
     Json value{{"constant", constant}};
     if (happens(0.8)) {

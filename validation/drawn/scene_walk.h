@@ -1,6 +1,8 @@
 #pragma once
 // The keys of a scene as its file has them, each with its row of the table.
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -20,10 +22,10 @@ template <class F>
 void for_each_key(nlohmann::ordered_json& object, Shape shape, const std::string& path, const F& f) {
   for (auto& [name, value] : object.items()) {
     const SceneKey& key = *find_key(shape, name);
-    const std::string here = path + "/" + name;
+    const std::string here = fmt::format("{}/{}", path, name);
     f(key, value, here);
     if (key.type == ValueType::objects)
-      for (std::size_t k = 0; k < value.size(); ++k) for_each_key(value[k], key.of, here + "/" + std::to_string(k), f);
+      for (std::size_t k = 0; k < value.size(); ++k) for_each_key(value[k], key.of, fmt::format("{}/{}", here, k), f);
     else if (value.is_object())
       for_each_key(value, key.of, here, f);
   }
