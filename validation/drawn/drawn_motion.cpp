@@ -22,9 +22,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-namespace in {
-constexpr Dimensions nothing{}, length{1, 0, 0}, speed{1, -1, 0}, mass{0, 0, 1}, force{1, -2, 1}, energy{2, -2, 1};
-}  // namespace in
+constexpr Dimensions in_nothing{}, in_length{1, 0, 0}, in_speed{1, -1, 0}, in_mass{0, 0, 1}, in_force{1, -2, 1},
+    in_energy{2, -2, 1};
 
 /// Threads and lanes as asked for, until it goes out of scope.
 class Setting {
@@ -56,12 +55,12 @@ class Collector {
   }
   template <class Values>
   void numbers(std::string_view name, const Values& values) {
-    scalars(name, in::nothing, values);
+    scalars(name, in_nothing, values);
     all_.back().kind = Quantity::Kind::numbers;
   }
   template <class Values>
   void rows(std::string_view name, const Values& values) {
-    Quantity& q = add(name, in::nothing, Quantity::Kind::numbers);
+    Quantity& q = add(name, in_nothing, Quantity::Kind::numbers);
     for (const auto& row : values)
       for (const auto& value : row) q.values.push_back(static_cast<double>(value));
   }
@@ -88,9 +87,9 @@ void collect(const Simulation& simulation, const FrameFields& fields, std::uint6
   const int d = simulation.dimension() == 0 ? 1 : simulation.dimension();
   const Dimensions stress{2 - d, -2, 1};
   const Frame frame = simulation.frame(fields);
-  to.vectors("positions", in::length, frame.mesh.points);
-  to.vectors("velocities", in::speed, frame.velocity);
-  to.scalars("masses", in::mass, frame.mass);
+  to.vectors("positions", in_length, frame.mesh.points);
+  to.vectors("velocities", in_speed, frame.velocity);
+  to.scalars("masses", in_mass, frame.mass);
   to.numbers("numbers of points", frame.mesh_point);
   to.rows("links", frame.links);
   to.numbers("corners", frame.mesh.nodes);
@@ -98,35 +97,35 @@ void collect(const Simulation& simulation, const FrameFields& fields, std::uint6
   to.numbers("components", frame.component);
   to.numbers("holds", frame.held);
   to.tensors("stresses", stress, frame.stress);
-  to.scalars("tensions", in::force, frame.tension);
-  to.vectors("displacements", in::length, frame.displacement);
-  to.vectors("contact forces", in::force, frame.contact_force);
-  to.scalars("contact depths", in::length, frame.contact_depth);
+  to.scalars("tensions", in_force, frame.tension);
+  to.vectors("displacements", in_length, frame.displacement);
+  to.vectors("contact forces", in_force, frame.contact_force);
+  to.scalars("contact depths", in_length, frame.contact_depth);
   to.rows("springs", frame.springs);
-  to.scalars("strains", in::nothing, frame.strain);
+  to.scalars("strains", in_nothing, frame.strain);
 
   const Diagnostics row = simulation.diagnostics();
   to.scalars("time", {0, 1, 0}, std::array{row.time});
-  to.scalars("kinetic energy", in::energy, std::array{row.kinetic});
-  to.scalars("elastic energy", in::energy, std::array{row.elastic});
-  to.scalars("energy of gravity", in::energy, std::array{row.gravitational});
-  to.scalars("energy of forces", in::energy, std::array{row.applied.value_or(0.0)});
+  to.scalars("kinetic energy", in_energy, std::array{row.kinetic});
+  to.scalars("elastic energy", in_energy, std::array{row.elastic});
+  to.scalars("energy of gravity", in_energy, std::array{row.gravitational});
+  to.scalars("energy of forces", in_energy, std::array{row.applied.value_or(0.0)});
   to.vectors("momentum", {1, -1, 1}, {&row.momentum, 1});
   to.vectors("angular momentum", {2, -1, 1}, {&row.angular_momentum, 1});
-  to.scalars("mass", in::mass, std::array{row.mass});
+  to.scalars("mass", in_mass, std::array{row.mass});
   to.scalars("boundary", {d - 1, 0, 0}, std::array{row.boundary});
-  to.scalars("largest stress", d == 1 ? in::force : stress, std::array{row.largest_stress});
+  to.scalars("largest stress", d == 1 ? in_force : stress, std::array{row.largest_stress});
   const CellCounts& n = row.counts;
   to.numbers("counts", std::array{n.vertices, n.edges, n.faces, n.cells, n.components, row.operations});
   if (row.contact) {
-    to.scalars("energies of contact", in::energy,
+    to.scalars("energies of contact", in_energy,
                std::array{row.contact->energy, row.contact->damped, row.contact->rubbed, row.contact->supplied});
     to.numbers("number of contacts", std::array{row.contact->contacts});
-    to.scalars("deepest contact", in::length, std::array{row.contact->deepest});
+    to.scalars("deepest contact", in_length, std::array{row.contact->deepest});
   }
   if (row.sleep) {
     to.numbers("components asleep", std::array{row.sleep->asleep, row.sleep->slept, row.sleep->woken});
-    to.scalars("energy of sleepers", in::energy, std::array{row.sleep->removed});
+    to.scalars("energy of sleepers", in_energy, std::array{row.sleep->removed});
   }
   if (const ProbeRow probes = simulation.probes(); !probes.probes.empty()) {
     std::vector<Vector3d> x, v;
@@ -135,8 +134,8 @@ void collect(const Simulation& simulation, const FrameFields& fields, std::uint6
         x.push_back(probe->position);
         v.push_back(probe->velocity);
       }
-    to.vectors("probes", in::length, x);
-    to.vectors("velocities of probes", in::speed, v);
+    to.vectors("probes", in_length, x);
+    to.vectors("velocities of probes", in_speed, v);
   }
 }
 

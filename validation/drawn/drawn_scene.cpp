@@ -35,6 +35,8 @@ class SceneOfAllKeys {
   SceneOfAllKeys(std::uint64_t seed, std::uint64_t number, std::uint64_t attempt)
       : draw_(seed + 7919 * attempt, number) {
     json_["name"] = fmt::format("drawn {} of seed {}", number, seed);
+    is_free_ = happens(0.35);
+    keeps_energy_ = happens(0.4);
     draw_integrator();
     draw_bodies();
     json_["gravity"] = {0, 0, 0};
@@ -126,7 +128,7 @@ class SceneOfAllKeys {
       material["young"] = written(young);
       material["poisson"] = written(draw_.uniform(0.0, 0.45));
       if (happens(0.7)) material["model"] = one_of<std::string>({"neo-hookean", "corotational", "stvk"});
-      if (dimension_ == 3 && happens(0.4))
+      if (dimension_ == 3 && !keeps_energy_ && happens(0.4))
         material["damping"] = {{"ratio", number(0.01, 0.3)},
                                {"frequency", number(0.05 * scales.rate, 0.3 * scales.rate)}};
     } else {
@@ -135,10 +137,13 @@ class SceneOfAllKeys {
       else
         material["stiffness"] = written(stiffness);
       if (happens(0.1)) material["model"] = "springs";
-      material["damping"] = happens(0.5) ? 0.0 : written(draw_.logarithmic(0.01, 0.3) * stiffness / scales.rate);
+      material["damping"] =
+          keeps_energy_ || happens(0.3) ? 0.0 : written(draw_.logarithmic(0.01, 0.3) * stiffness / scales.rate);
     }
     if (dimension_ == 1 && happens(0.7)) material["width"] = written(0.3 * scales.edge);
-    if (with_viscosity) material["viscosity"] = happens(0.5) ? 0.0 : number(0.001 * scales.rate, 0.02 * scales.rate);
+    if (with_viscosity)
+      material["viscosity"] =
+          is_free_ || keeps_energy_ || happens(0.3) ? 0.0 : number(0.001 * scales.rate, 0.02 * scales.rate);
     return material;
   }
 
@@ -310,6 +315,7 @@ class SceneOfAllKeys {
   }
 
   void draw_supports() {
+    if (is_free_) return;
     if (happens(0.5)) {
       json_["fixed"] = Json::array();
       for (int k = draw_.whole(1, 2); k > 0; --k) {
@@ -380,6 +386,7 @@ class SceneOfAllKeys {
       one["to"] = draw_.below(json_["bodies"].size());
     }
     one["stiffness"] = written(scales_.mass * scales_.rate * scales_.rate * draw_.logarithmic(1e-3, 1e-2));
+    if (is_free_ && !one.contains("to")) return;
     json_["attachments"] = Json::array({one});
   }
 
@@ -432,7 +439,7 @@ class SceneOfAllKeys {
         written(scales_.mass * acceleration_ / std::pow(size_.maxCoeff(), 2) * draw_.logarithmic(3.0, 100.0));
     contact["depth"] = written(draw_.uniform(0.05, 0.2) * scales_.edge);
     if (happens(0.5)) contact["exponent"] = draw_.whole(2, 4);
-    if (happens(several_ ? 0.4 : 0.9)) {
+    if (happens(is_free_ ? 0.2 : several_ ? 0.4 : 0.9)) {
       contact["obstacles"] = Json::array();
       for (int k = draw_.whole(1, 2); k > 0; --k) contact["obstacles"].push_back(obstacle());
     }
@@ -571,6 +578,7 @@ class SceneOfAllKeys {
   Mesh mesh_;
   int dimension_ = 3;  // of the body drawn last
   bool simplices_ = true, several_ = false;
+  bool is_free_ = false, keeps_energy_ = false;  // nothing holds it in space; nothing damps it
   double step_ = 0.0, duration_ = 0.0, speed_ = 0.0, acceleration_ = 0.0;
   Vector3d centre_{0, 0, 0}, size_{0, 0, 0};
 };

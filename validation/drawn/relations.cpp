@@ -194,6 +194,13 @@ double distance(const DrawnMotion& a, const DrawnMotion& b) {
   return largest;
 }
 
+/// Does the integrator not iterate until its equations are solved? Then a tangent that is no derivative changes the
+/// motion.
+bool is_linear(const SceneFile& file) {
+  static constexpr std::array linear{"local-global", "ros2", "baraff-witkin"};
+  return std::ranges::find(linear, file.integrator) != linear.end();
+}
+
 RelationFound judge_moving_frame(const JudgedScene& s) {
   const SceneFile& file = s.file();
   if (!file.fixed.empty() || !file.driven.empty()) return does_not_apply("something holds it in space");
@@ -204,6 +211,9 @@ RelationFound judge_moving_frame(const JudgedScene& s) {
   if (file.sleep) return does_not_apply("what moves with the frame does not sleep");
   if (!file.events.empty()) return does_not_apply("events choose by place");
   if (file.duration == 0.0) return does_not_apply("it has no duration");
+  if (!s.motion().end.empty()) return does_not_apply("the run ends early");
+  if (is_linear(file) && (!file.touches.empty() || std::ranges::any_of(file.forces, &SceneForce::follows)))
+    return does_not_apply("its tangent of contacts, or of pressures along current normals, is no derivative");
   if (file.solver == "conjugate-gradients") return does_not_apply("its solver's tolerance is a share of velocities");
   if (file.unstable_step != UnstableStep::warn && file.has_contact())
     return does_not_apply("its speed counts in the forecast of contacts, by which steps are refused or divided");
@@ -275,9 +285,7 @@ RelationFound judge_momentum(const JudgedScene& s) {
   if (!file.obstacles.empty()) return does_not_apply("obstacles push it");
   if (file.material.viscosity > 0.0) return does_not_apply("viscosity brakes it");
   if (file.sleep) return does_not_apply("sleep takes momentum");
-  // those that do not iterate until their equations are solved
-  static constexpr std::array linear{"local-global", "ros2", "baraff-witkin"};
-  if (!file.touches.empty() && std::ranges::find(linear, file.integrator) != linear.end())
+  if (!file.touches.empty() && is_linear(file))
     return does_not_apply("where bodies touch, the tangent has blocks of each alone, which changes momentum");
   if (std::ranges::any_of(file.attachments, [](const SceneAttachment& a) { return !a.to; }))
     return does_not_apply("it is attached to space");
@@ -363,6 +371,8 @@ RelationFound judge_energy(const JudgedScene& s) {
       }))
     return does_not_apply("damping takes energy that is not counted");
   if (!file.driven.empty()) return does_not_apply("drives supply energy that is not counted");
+  if (std::ranges::any_of(file.forces, [](const SceneForce& f) { return f.from > 0.0 || f.until; }))
+    return does_not_apply("a force that begins or ends has its potential only meanwhile");
   if (!file.events.empty()) return does_not_apply("an event takes energy");
   if (file.sleep) return does_not_apply("sleep takes energy");
   if (file.unstable_step == UnstableStep::substep) return does_not_apply("its steps are divided already");

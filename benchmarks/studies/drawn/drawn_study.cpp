@@ -9,6 +9,7 @@
 #include <sstream>
 #include <vector>
 
+#include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/scratch_folder.h"
 #include "core/plain/error.h"
 #include "core/scene/file/keys/strict_json.h"
@@ -51,7 +52,7 @@ std::string write_smallest(const Json& scene, const std::string& name, const Rel
   if (fs::exists(file)) return "";
   fs::create_directories(folder);
   std::ofstream out(file);
-  out << smallest_breaking(scene, relation, meshes, scratch).dump(1) << "\n";
+  out << json_text(smallest_breaking(scene, relation, meshes, scratch), 1) << "\n";
   if (!out) throw IoError(fmt::format("{}: cannot be written", file.string()));
   return file.string();
 }
