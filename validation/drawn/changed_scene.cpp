@@ -93,7 +93,7 @@ Json in_turned_axes(Json scene) {
   return scene;
 }
 
-Json with_disturbance(Json scene, double share) {
+Json with_disturbance(Json scene, double share, double length) {
   const double duration = scene["duration"].get<double>();
   const auto disturb = [rate = duration > 0.0 ? share / duration : 0.0](Json& object) {
     Json velocity = object.value("initial_velocity", Json{0, 0, 0});
@@ -110,7 +110,11 @@ Json with_disturbance(Json scene, double share) {
     object["initial_velocity"] = velocity;
   };
   disturb(scene);
+  // what rests on another body, or on an obstacle, is lifted from it or pressed into it
+  Vector3d way = share * length * Vector3d(0.3, -0.7, 0.5);
   for_each_body(scene, [&](Json& body) {
+    body["translate"] = json_of_bits(vector_of(body.value("translate", Json{0, 0, 0})) + way);
+    way *= -1.3;
     body["scale"] = body.value("scale", 1.0) * (1.0 + share);
     if (body.contains("initial_velocity")) disturb(body);
   });

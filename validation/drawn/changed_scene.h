@@ -20,9 +20,10 @@ nlohmann::ordered_json in_units(nlohmann::ordered_json scene, const Dimensions& 
 /// The scene in axes in which the old y, z and x are x, y and z.
 nlohmann::ordered_json in_turned_axes(nlohmann::ordered_json scene);
 
-/// The scene with bodies that are larger by a share, each about its own origin, and are stretched, sheared and turned
-/// by about that share until the end: far more than by rounding, for a share of 1e-10.
-nlohmann::ordered_json with_disturbance(nlohmann::ordered_json scene, double share);
+/// The scene with bodies that are larger by a share, each about its own origin, lie elsewhere by about that share of a
+/// length [m], and are stretched, sheared and turned by about that share until the end: far more than by rounding, for
+/// a share of 1e-10.
+nlohmann::ordered_json with_disturbance(nlohmann::ordered_json scene, double share, double length);
 
 /// With an event that changes nothing, at a multiple of the step: cells are removed where there are none.
 nlohmann::ordered_json with_idle_event(nlohmann::ordered_json scene);

@@ -94,7 +94,7 @@ TEST(Relations, SeeAnAxisThatIsNotTurned) {
   const MotionScales scales{.length = 0.3, .time = 0.001, .mass = 0.06};
   Json other = in_turned_axes(falling_sheet());
   const auto allowed =
-      allowances(motion_of(falling_sheet()), motion_of(with_disturbance(falling_sheet(), 0x1p-34)), scales);
+      allowances(motion_of(falling_sheet()), motion_of(with_disturbance(falling_sheet(), 0x1p-34, 0.3)), scales);
   ASSERT_TRUE(allowed);
   EXPECT_FALSE(differs_by_more(expected, motion_of(other), *allowed));
   other["gravity"] = {0, 0, -9.81};
@@ -107,7 +107,7 @@ TEST(Relations, SeeABodyThatDoesNotMoveWithTheFrame) {
   scene.erase("events");
   const Eigen::Vector3d place(1, 2, 3), velocity(4, 5, 6);
   const DrawnMotion own = first_of(motion_of(scene), motion_of(scene));
-  const auto allowed = allowances(own, first_of(motion_of(with_disturbance(scene, 0x1p-34)), own),
+  const auto allowed = allowances(own, first_of(motion_of(with_disturbance(scene, 0x1p-34, 0.3)), own),
                                   {.length = 0.3, .time = 0.001, .mass = 0.06});
   ASSERT_TRUE(allowed);
   const auto found = [&](const Json& moving) {
