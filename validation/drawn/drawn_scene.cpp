@@ -483,10 +483,11 @@ class SceneOfAllKeys {
   }
 
   Json event() {
-    const int kind = draw_.whole(0, 6);
+    const bool refines = dimension_ == 3 && simplices_ && happens(0.25);
+    const int kind = refines ? 4 : std::array{0, 0, 1, 2, 3, 5}[draw_.below(6)];
     Json one;
     const auto at = [&] { one["at"] = time(0.0, 0.9); };
-    if (kind == 0 || kind == 6) {
+    if (kind == 0) {
       at();
       one["dissociate"] = dissociation();
     } else if (kind == 1) {
@@ -516,6 +517,8 @@ class SceneOfAllKeys {
       if (happens(0.3)) one["until"] = time(0.5, 0.9);
       one["tear_where_stressed"] = stress;
     } else if (kind == 4) {
+      // refused beside these
+      for (const char* key : {"forces", "driven", "attachments"}) json_.erase(key);
       at();
       Json refine{{"cells", cells(true)}};
       if (happens(0.6)) refine["at"] = one_of<std::string>({"longest edge", "centre"});

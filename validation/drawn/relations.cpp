@@ -172,6 +172,7 @@ std::string counts_bodies_together(const JudgedScene& s) {
 RelationFound judge_opposite_order(const JudgedScene& s) {
   const std::size_t count = s.file().bodies().size();
   if (count == 1) return does_not_apply("it is one body");
+  if (!s.motion().end.empty()) return does_not_apply("the run ends early");
   if (const std::string reason = counts_bodies_together(s); !reason.empty()) return does_not_apply(reason);
   // of each point of the bodies in the opposite order
   std::vector<std::size_t> number;
@@ -261,7 +262,8 @@ RelationFound judge_axes(const JudgedScene& s) {
 /// [s] The time within a run in which a force acts, each moment by its factor.
 double acting_time(const SceneForce& force, double duration) {
   const double begin = force.from, end = std::min(force.until.value_or(duration), duration);
-  if (force.factor.empty()) return std::max(0.0, end - begin);
+  if (end <= begin) return 0.0;
+  if (force.factor.empty()) return end - begin;
   const auto factor_at = [&](double t) {
     const auto &at = force.factor.at, &value = force.factor.value;
     if (t <= at.front()) return value.front();
