@@ -39,14 +39,12 @@ void write_standards(Json& object, Shape shape) {
 
 }  // namespace
 
-const SceneKey* find_key(Shape shape, std::string_view name) {
-  static const auto index = [] {
-    std::map<std::pair<Shape, std::string_view>, const SceneKey*> keys;
-    for (const SceneKey& key : scene_keys()) keys[{key.shape, key.name}] = &key;
-    return keys;
-  }();
-  const auto found = index.find({shape, name});
-  return found == index.end() ? nullptr : found->second;
+bool has_key(const Json& scene, std::string_view name) {
+  bool has = false;
+  Json copy = scene;
+  for_each_key(copy, Shape::scene, "",
+               [&](const SceneKey& key, Json&, const std::string&) { has = has || key.name == name; });
+  return has;
 }
 
 Dimensions dimensions_of(std::string_view unit) {

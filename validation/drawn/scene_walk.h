@@ -11,9 +11,6 @@
 
 namespace dartboard {
 
-/// The row of a key; null for a key that the shape does not have.
-const SceneKey* find_key(Shape shape, std::string_view name);
-
 /// f(key, value, path) for each key of an object that is there, and of the objects in it: parents first. f may change
 /// the value.
 ///
@@ -30,6 +27,9 @@ void for_each_key(nlohmann::ordered_json& object, Shape shape, const std::string
       for_each_key(value, key.of, here, f);
   }
 }
+
+/// Is there a key of this name somewhere in the scene?
+bool has_key(const nlohmann::ordered_json& scene, std::string_view name);
 
 /// The exponents of a unit in the table of keys.
 struct Dimensions {

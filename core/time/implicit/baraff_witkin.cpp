@@ -11,6 +11,7 @@ const Scheme scheme_of_baraff_witkin{
     .order = 1,
     .stages = 1,
     .implicit = true,
+    .linearized = true,
     .imaginary_limit = Scheme::unlimited,
     .amplification = backward_euler_amplification,
     .source = "Baraff, Witkin: Large steps in cloth simulation, 1998",

@@ -13,6 +13,7 @@ const Scheme scheme_of_ros2{
     .order = 2,
     .stages = 2,
     .implicit = true,
+    .linearized = true,
     .imaginary_limit = Scheme::unlimited,
     .amplification = two_stage_amplification,
     .source = "Verwer, Spee, Blom, Hundsdorfer 1999",

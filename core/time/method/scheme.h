@@ -20,6 +20,7 @@ struct Scheme {
   int order = 1;
   int stages = 1;              // force evaluations per step; of an implicit method: systems of equations per step
   bool implicit = false;       // solves linear systems
+  bool linearized = false;     // implicit, and does not iterate until its equations hold: the tangent counts
   bool symplectic = false;     // where nothing dissipates
   bool symmetric = false;      // a step of -h undoes a step of h, where nothing dissipates
   bool keeps_angular = false;  // angular momentum is exact; linear momentum is, for all

@@ -24,7 +24,7 @@ class Checker {
   Json object(const Json& value, Shape shape, const std::string& path) const {
     if (!value.is_object()) fail(path, is_instead(value), fmt::format("an object ({})", help_of(shape).name));
     for (const auto& [key, unused] : value.items())
-      if (!find(shape, key)) fail_unknown(shape, path, key);
+      if (find_key(shape, key) == nullptr) fail_unknown(shape, path, key);
     for (const SceneRule& rule : scene_rules())
       if (rule.shape == shape) require(rule, value, path);
     Json complete = Json::object();
@@ -46,12 +46,6 @@ class Checker {
     throw InputError(fmt::format("{}: {}: {}; expected {}", name_, path.empty() ? "/" : path, found, expected));
   }
   static std::string is_instead(const Json& value) { return fmt::format("is {}", shown(value)); }
-
-  static const SceneKey* find(Shape shape, std::string_view name) {
-    for (const SceneKey& key : scene_keys())
-      if (key.shape == shape && key.name == name) return &key;
-    return nullptr;
-  }
 
   [[noreturn]] void fail_unknown(Shape shape, const std::string& path, const std::string& name) const {
     std::vector<std::string> keys;
@@ -104,7 +98,7 @@ class Checker {
       for (std::size_t k = 1; k < given.size(); ++k)
         if (const std::string key(given[k]); !value.at(key).is_object())
           fail(fmt::format("{}/{}", path, key), fmt::format("is {} together with '{}'", shown(value.at(key)), given[0]),
-               fmt::format("an object ({})", help_of(find(rule.shape, key)->of).name));
+               fmt::format("an object ({})", help_of(find_key(rule.shape, key)->of).name));
     if (rule.kind == SceneRule::excludes && given.size() > 1 && given[0] == rule.keys[0])
       fail(path, "has " + quoted(given), fmt::format("'{}' without the others", rule.keys[0]));
   }

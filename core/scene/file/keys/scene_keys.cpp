@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "core/plain/material.h"
 #include "core/time/integrators.h"
@@ -654,6 +656,16 @@ const ShapeHelp& help_of(Shape shape) { return scene_shapes()[static_cast<std::s
 std::span<const SceneKey> scene_keys() {
   static const std::vector<SceneKey> keys = make_keys();
   return keys;
+}
+
+const SceneKey* find_key(Shape shape, std::string_view name) {
+  static const auto index = [] {
+    std::map<std::pair<Shape, std::string_view>, const SceneKey*> keys;
+    for (const SceneKey& key : scene_keys()) keys[{key.shape, key.name}] = &key;
+    return keys;
+  }();
+  const auto found = index.find({shape, name});
+  return found == index.end() ? nullptr : found->second;
 }
 
 std::span<const SceneRule> scene_rules() {

@@ -109,6 +109,8 @@ struct SceneKey {
 };
 
 std::span<const SceneKey> scene_keys();
+/// The row of a key; null for a key that the shape does not have.
+const SceneKey* find_key(Shape shape, std::string_view name);
 
 /// The integrator of a scene that gives a step and does not name an integrator.
 inline constexpr const char* standard_integrator = "rk4";
