@@ -351,7 +351,7 @@ void Sleeping::state(Archive& archive) {
   std::uint64_t count = components_.size();
   archive(count, done_);
   if (count != components_.size()) archive.fail("the body has other components than the run had");
-  for (Component& c : components_) archive(c.asleep, c.slow, c.box.low, c.box.high, c.near);
+  for (Component& c : components_) archive(c.asleep, c.slow, c.size, c.box.low, c.box.high, c.near);
   if (!archive.reads()) return;
   make_part();
 }

@@ -83,7 +83,7 @@ class Sleeping {
   struct Component {
     std::uint32_t first = 0, count = 0;  // in ordered_
     std::optional<std::uint32_t> group;  // of its skin, where bodies may touch
-    double size = 0.0;                   // [m] about the distance of vertices from each other
+    double size = 0.0;                   // [m] about the distance of vertices, when it was found
     std::uint64_t slow = 0;              // steps, the last included, after which it was slow
     bool asleep = false;
     std::uint32_t first_in_part = none;   // where something sleeps, of one that is awake

@@ -297,6 +297,14 @@ TEST(Sleeping, EndsWhenAForceBegins) {
   EXPECT_GT(risen_since_asleep(scene), 0.01);
 }
 
+TEST(Sleeping, EndsWhenAForceEnds) {
+  Json scene = on_a_floor();
+  scene.erase("contact");
+  scene["forces"] = Json::parse(
+      R"([{"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}, "acceleration": [0, 0, 9.81], "until": 1.4}])");
+  EXPECT_LT(risen_since_asleep(scene), -0.01);
+}
+
 // Slow long enough at the very boundary at which the force begins: a body that fell asleep there would never feel it.
 TEST(Sleeping, DoesNotBeginWhenAForceDoes) {
   for (const int step : {11, 12, 13, 14, 15}) {
@@ -344,6 +352,25 @@ TEST(Sleeping, LeavesARunThatIsContinuedTheSame) {
   const recorded::RunInMemory one = recorded::whole(file);
   ASSERT_EQ(one.simulation->diagnostics().sleep->woken, 1u);
   for (std::uint64_t n = 1; n < one.simulation->step_count(); ++n) {
+    SCOPED_TRACE(n);
+    recorded::expect_same(recorded::in_two(file, n), one);
+  }
+}
+
+TEST(Sleeping, BeginsAtTheSameStepAfterARestartBesideABodyThatHasGrown) {
+  // it is near to the other as long as that has moved by half of the gap since the last look, and by a share of its
+  // first size: at the eleventh step 0.051217 m, and with its size after three steps more than 0.0515 m
+  Json scene = touching(two_cubes(0.0515));
+  scene["material"] = Json::parse(R"({"density": 1000, "stiffness": 0, "damping": 0, "viscosity": 0})");
+  scene["bodies"][1]["translate"] = {0.1515, 0, 0};
+  scene["bodies"][1]["initial_velocity"] =
+      Json::parse(R"({"linear": [[0, 0, 0], [0, 200, 0], [0, 0, 200]], "centre": [0.2015, 0.05, 0.05]})");
+  scene["duration"] = 0.0024;
+  scene["output"] = Json::parse(R"({"diagnostics_every": {"steps": 1}})");
+  const SceneFile file = parse(scene);
+  const recorded::RunInMemory one = recorded::whole(file);
+  ASSERT_EQ(one.simulation->diagnostics().sleep->slept, 1u);
+  for (const std::uint64_t n : {3, 5, 10}) {
     SCOPED_TRACE(n);
     recorded::expect_same(recorded::in_two(file, n), one);
   }
