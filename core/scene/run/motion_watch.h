@@ -39,6 +39,8 @@ class MotionWatch {
   StepResult changed_within_step(const SpringSystem& system, Motion motion) {
     return detector_.system_changed(system, motion);
   }
+  /// The state kept last is not one after n steps, but later by a time [s], within the next step.
+  void keeps_within_step(std::uint64_t n, double later) { within_ = {n, later}; }
   /// Judge the state after step n, of which the integrator has reported `result`.
   ///
   /// `work` [J] is done on the body by something that is not in its system. At the last step all springs are summed.
@@ -48,8 +50,14 @@ class MotionWatch {
   /// Go back to the state kept last: that of the start, that after the last change, or a later one whose energy could
   /// be explained. A step that the integrator could not take has not been checked.
   ///
-  /// returns  how many steps before step n it was
-  std::uint64_t go_back(std::uint64_t n, Motion motion) const { return n - checked_ + detector_.restore(motion); }
+  struct KeptState {
+    std::uint64_t steps_before;  // step n
+    double later;                // [s] than the end of that step
+  };
+  KeptState go_back(std::uint64_t n, Motion motion) const {
+    const std::uint64_t before = n - checked_ + detector_.restore(motion);
+    return {before, n - before == within_.step ? within_.later : 0.0};
+  }
 
   std::size_t bytes() const { return detector_.bytes(); }
   std::size_t driven_bytes() const { return detector_.driven_bytes(); }
@@ -58,7 +66,7 @@ class MotionWatch {
   template <class Archive>
   void state(Archive& archive) {
     bool is_valid = before_.ok();
-    archive(checked_, detector_, is_valid);
+    archive(checked_, detector_, is_valid, within_.step, within_.later);
     if (archive.reads()) before_.code = is_valid ? StepCode::ok : StepCode::nonfinite;
   }
   /// An invalid state is found again by its check, which then changes nothing.
@@ -72,6 +80,10 @@ class MotionWatch {
   DivergenceDetector detector_;
   StepResult before_;
   std::uint64_t checked_ = 0;  // the last step that the detector has checked
+  struct {
+    std::uint64_t step = 0;
+    double later = 0.0;  // [s]
+  } within_;             // the last step within which a state was kept
 };
 
 }  // namespace dartboard

@@ -246,7 +246,9 @@ void Simulation::examine_coordinates() {
 Divergence Simulation::diverged(const Fault& fault, bool goes_back) {
   Divergence d{done_, time(), fault.quantity, file_number(fault.vertex), fault.value};
   if (!goes_back) return d;
-  d.taken_back = taken_back_ = watch_.go_back(done_, stepped_motion());
+  const MotionWatch::KeptState kept = watch_.go_back(done_, stepped_motion());
+  d.taken_back = taken_back_ = kept.steps_before;
+  taken_back_within_ = kept.later;
   if (sleeping_) sleeping_->give();
   if (contact_) contact_->go_to(time());
   return d;
@@ -306,6 +308,7 @@ StepResult Simulation::step_in_parts() {
     if (go_on(this->operations() != operations, now, end_of_part(now, end)) == Change::none) continue;
     remember_pressed_faces();
     result = watch_.changed_within_step(stepped_system(), stepped_motion());
+    watch_.keeps_within_step(done_, now - static_cast<double>(done_) * step_);
     if (!result.ok()) return result;
   }
 }

@@ -45,7 +45,7 @@ class Simulation {
   std::uint64_t steps_done() const { return done_; }
   double step() const { return step_; }  // [s]
   /// [s] steps_done() * step; after a divergence, of the state that the body has gone back to
-  double time() const { return static_cast<double>(done_ - taken_back_) * step_; }
+  double time() const { return static_cast<double>(done_ - taken_back_) * step_ + taken_back_within_; }
 
   /// One step, then the events due at its end, then the velocities of driven vertices and the forces of the next.
   ///
@@ -150,6 +150,7 @@ class Simulation {
   std::string file_;  // of the scene, for errors
   double step_;
   std::uint64_t step_count_, done_ = 0, taken_back_ = 0;
+  double taken_back_within_ = 0.0;  // [s] that the state after those steps back is later
   std::unique_ptr<SimulatedBody> body_;
   std::unique_ptr<Integrator> integrator_;
   std::unique_ptr<Timeline> timeline_;

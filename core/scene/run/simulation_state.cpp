@@ -14,7 +14,7 @@ void Simulation::save(Archive& archive) const { const_cast<Simulation*>(this)->s
 
 void Simulation::state(Archive& archive) {
   archive.part("simulation");
-  archive(done_, taken_back_, guard_, coarse_);
+  archive(done_, taken_back_, taken_back_within_, guard_, coarse_);
   archive.part("body");
   body_->state(archive);
   timeline_->state(archive);

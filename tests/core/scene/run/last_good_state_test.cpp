@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "core/base/archive.h"
 #include "core/scene/run/scene_run.h"
 #include "tests/support/moving_box.h"
 
@@ -56,6 +57,28 @@ TEST(LastGoodState, IsNotHandedOutAfterALaterOne) {
   ASSERT_TRUE(run_scene(simulation, scene.output, keeper).divergence);
   for (std::size_t k = 1; k < keeper.frames.size(); ++k)
     ASSERT_GT(keeper.frames[k].time, keeper.frames[k - 1].time) << k;
+}
+
+TEST(LastGoodState, WithinAStepHasItsOwnTime) {
+  Json json = moving_box();
+  const double h = 1.5 * Simulation(parse(json)).step_limit().stable;
+  json["step"] = h;
+  json["duration"] = 1000 * h;
+  json["event_times"] = "exact";
+  // the state that is kept last is that where the drive ends
+  json["driven"] = Json::array({{{"ids", {0}}, {"velocity", {1, 0, 0}}, {"from", 0.4 * h}, {"until", 2.4 * h}}});
+  const SceneFile scene = parse(json);
+  Simulation simulation(scene);
+  while (!simulation.advance()) ASSERT_LT(simulation.steps_done(), 1000u);
+  EXPECT_NEAR(simulation.time(), 2.4 * h, 1e-12 * h);
+  EXPECT_NEAR(simulation.frame().mesh.points[0].x(), 2.0 * h, 1e-12);
+
+  Simulation again(scene);
+  Archive archive;
+  simulation.save(archive);
+  Archive written(archive.written(), "state");
+  again.load(written);
+  EXPECT_EQ(again.time(), simulation.time());
 }
 
 }  // namespace
