@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <utility>
 
 namespace dartboard {
@@ -137,7 +138,7 @@ Json with_list_of_bodies(Json scene) {
   return scene;
 }
 
-std::optional<Json> with_body_far_away(Json scene, double size, double mass, int dimension) {
+std::optional<LongerScene> with_body_far_away(Json scene, double size, double mass, int dimension) {
   // sides of planes on which the body must be
   std::vector<Vector3d> sides;
   for_each_key(scene, Shape::scene, "", [&](const SceneKey& key, Json& value, const std::string&) {
@@ -167,23 +168,175 @@ std::optional<Json> with_body_far_away(Json scene, double size, double mass, int
                stiffness = 1e-6 * density * std::pow(edge, dimension) / (step * step);
   Json material{{"density", density}, {"stiffness", stiffness}, {"damping", 0}};
   if (dimension == 1) material["width"] = edge;
-  scene["bodies"].push_back({{"generate", generate},
-                             {"translate", json_of_bits(1000.0 * size * *way)},
-                             {"material", material},
-                             {"initial_velocity", {0, 0, 0}}});
-  return scene;
+  const Vector3d there = 30.0 * size * *way;
+  Json& bodies = scene["bodies"];
+  const Json other{{"generate", generate},
+                   {"translate", json_of_bits(there)},
+                   {"material", material},
+                   {"initial_velocity", {0, 0, 0}}};
+  bodies.insert(bodies.begin(), other);
+  const auto is_next = [](Json& body) { body = body.get<std::size_t>() + 1; };
+  if (scene.contains("attachments"))
+    for (Json& one : scene["attachments"])
+      if (one.contains("to")) is_next(one["to"]);
+  if (scene.contains("contact")) {
+    Json& contact = scene["contact"];
+    Json law{{"friction", 0.9}, {"restitution", 0.3}};
+    if (contact.contains("pressure")) law["pressure"] = 8.0 * contact["pressure"].get<double>();
+    if (contact.contains("pairs"))
+      for (Json& pair : contact["pairs"])
+        for (Json& body : pair["of"]) is_next(body);
+    Json pair = law;
+    pair["of"] = {0, 0};
+    pair["touch"] = dimension == 3 ? "yes" : "no";
+    if (contact.value("bodies", "none") != "none") {
+      contact["pairs"].push_back(pair);
+      for (std::size_t k = 1; k < bodies.size(); ++k) contact["pairs"].push_back({{"of", {0, k}}, {"touch", "no"}});
+    }
+    if (contact.contains("obstacles")) {
+      Json obstacle = law;
+      obstacle["sphere"] = {{"centre", json_of_bits(there + 100.0 * size * *way)}, {"radius", size}};
+      contact["obstacles"].insert(contact["obstacles"].begin(), obstacle);
+    }
+  }
+  constexpr std::size_t points_of[] = {0, 2, 4, 8};
+  return LongerScene{scene, points_of[dimension]};
 }
 
 Json with_opposite_order(Json scene) {
-  Json& bodies = scene["bodies"];
-  std::reverse(bodies.begin(), bodies.end());
-  const auto renumber = [last = bodies.size() - 1](Json& body) { body = last - body.get<std::size_t>(); };
+  const auto reverse = [](Json& object, const char* key) {
+    if (object.contains(key)) std::reverse(object[key].begin(), object[key].end());
+  };
+  for (const char* key : {"bodies", "forces", "driven", "fixed", "attachments"}) reverse(scene, key);
+  if (scene.contains("contact"))
+    for (const char* key : {"obstacles", "pairs"}) reverse(scene["contact"], key);
+  std::set<double> times;
+  for (const Json& event : scene.value("events", Json::array()))
+    if (event.contains("at")) times.insert(event["at"].get<double>());
+  if (!times.empty() && times.size() == scene["events"].size()) reverse(scene, "events");
+  if (!scene.contains("bodies")) return scene;
+  const auto renumber = [last = scene["bodies"].size() - 1](Json& body) { body = last - body.get<std::size_t>(); };
   if (scene.contains("attachments"))
     for (Json& one : scene["attachments"])
       if (one.contains("to")) renumber(one["to"]);
   if (scene.contains("contact") && scene["contact"].contains("pairs"))
     for (Json& pair : scene["contact"]["pairs"])
       for (Json& body : pair["of"]) renumber(body);
+  return scene;
+}
+
+std::optional<Json> in_pieces(Json scene, double time) {
+  bool any = false;
+  const auto divide_table = [&](Json& table, const char* value) {
+    for (std::size_t k = 1; k < table.size(); ++k) {
+      const double begin = table[k - 1]["at"].get<double>(), end = table[k]["at"].get<double>();
+      if (!(begin < time && time < end)) continue;
+      const double share = (time - begin) / (end - begin);
+      const auto between = [share](const Json& a, const Json& b) {
+        return a.get<double>() + share * (b.get<double>() - a.get<double>());
+      };
+      const Json &a = table[k - 1][value], &b = table[k][value];
+      Json entry{{"at", time}};
+      if (a.is_array())
+        for (std::size_t axis = 0; axis < 3; ++axis) entry[value].push_back(between(a[axis], b[axis]));
+      else
+        entry[value] = between(a, b);
+      table.insert(table.begin() + static_cast<std::ptrdiff_t>(k), entry);
+      any = true;
+      return;
+    }
+  };
+  const auto divide_times = [&](Json& list, std::size_t k) {
+    const bool acts = list[k].value("from", 0.0) < time && time < list[k].value("until", 2.0 * time);
+    if (!acts) return;
+    Json second = list[k];
+    list[k]["until"] = time;
+    second["from"] = time;
+    list.push_back(second);
+    any = true;
+  };
+  for (const char* key : {"forces", "driven"}) {
+    if (!scene.contains(key)) continue;
+    Json& list = scene[key];
+    for (std::size_t k = list.size(); k-- > 0;) {
+      if (list[k].contains("over_time")) divide_table(list[k]["over_time"], "factor");
+      if (list[k].contains("path"))
+        divide_table(list[k]["path"], "place");
+      else if (list[k].contains("turn"))
+        divide_table(list[k]["turn"]["angles"], "degrees");
+      else if (!list[k].contains("reverse_every"))
+        divide_times(list, k);
+    }
+  }
+  return any ? std::optional(scene) : std::nullopt;
+}
+
+Json with_events_at_steps(Json scene) {
+  const double step = scene["step"].get<double>();
+  for (Json& event : scene["events"]) event["at"] = std::ceil(event["at"].get<double>() / step) * step;
+  return scene;
+}
+
+Json with_obstacles_that_move(Json scene, const Vector3d& velocity, double from, double until) {
+  const double duration = scene["duration"].get<double>();
+  const Vector3d way = std::max(0.0, std::min(until, duration) - from) * velocity;
+  const auto move = [&way](Json& point) { point = json_of_bits(vector_of(point) - way); };
+  for (Json& obstacle : scene["contact"]["obstacles"]) {
+    const Json rest = obstacle.value("velocity", Json{0, 0, 0});
+    if (!vector_of(rest).isZero(0.0)) continue;
+    obstacle["velocity"] = json_of_bits(velocity);
+    obstacle["from"] = from;
+    obstacle["until"] = until;
+    if (obstacle.contains("plane")) move(obstacle["plane"]["point"]);
+    if (obstacle.contains("sphere")) move(obstacle["sphere"]["centre"]);
+    if (obstacle.contains("box"))
+      for (const char* corner : {"min", "max"}) move(obstacle["box"][corner]);
+  }
+  return scene;
+}
+
+Json in_shorter_steps(Json scene, int parts) {
+  const double step = scene["step"].get<double>(), duration = scene["duration"].get<double>();
+  const double steps = std::ceil(duration / step * (1.0 - 1e-12));
+  scene["step"] = step / parts;
+  scene["duration"] = steps * step;
+  return scene;
+}
+
+Json with_rk4(Json scene) {
+  scene["integrator"] = "rk4";
+  scene.erase("solver");
+  return scene;
+}
+
+Json in_mirror(Json scene) {
+  const auto mirror = [](Json& vector) { vector[0] = -vector[0].get<double>(); };
+  // an axis turns the other way round
+  const auto mirror_axis = [](Json& axis) {
+    axis[1] = -axis[1].get<double>();
+    axis[2] = -axis[2].get<double>();
+  };
+  for_each_key(scene, Shape::scene, "", [&](const SceneKey& key, Json& value, const std::string&) {
+    const bool is_point = key.type == ValueType::point || (key.type == ValueType::point_or_object && value.is_array());
+    const bool is_axis =
+        (key.shape == Shape::force && key.name == "torque") || (key.shape == Shape::driven_turn && key.name == "axis");
+    if (is_axis)
+      mirror_axis(value);
+    else if (is_point)
+      mirror(value);
+    if (key.type == ValueType::points)
+      for (Json& point : value) mirror(point);
+    if (key.type == ValueType::matrix) {
+      for (Json& row : value) mirror(row);
+      for (Json& x : value[0]) x = -x.get<double>();
+    }
+    if (key.of == Shape::box && value.is_object()) {
+      // by now neither of its corners is mirrored
+      const Json least = value["min"][0];
+      value["min"][0] = value["max"][0];
+      value["max"][0] = least;
+    }
+  });
   return scene;
 }
 

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -82,8 +83,9 @@ class Collector {
   std::string when_;
 };
 
-void collect(const Simulation& simulation, const FrameFields& fields, std::uint64_t parts, std::vector<Quantity>& all) {
-  Collector to(all, fmt::format("step {}", simulation.steps_done() / parts));
+void collect(const Simulation& simulation, const FrameFields& fields, const DrawnRunOptions& options,
+             std::vector<Quantity>& all) {
+  Collector to(all, fmt::format("step {}", (simulation.steps_done() - options.late) / options.parts));
   const int d = simulation.dimension() == 0 ? 1 : simulation.dimension();
   const Dimensions stress{2 - d, -2, 1};
   const Frame frame = simulation.frame(fields);
@@ -190,11 +192,11 @@ DrawnMotion run_drawn(const nlohmann::ordered_json& scene, const std::filesystem
   FrameFields fields = file.output.fields;
   fields.held = fields.stress = true;
   fields.contact = file.has_contact();
-  fields.springs = file.has_springs() && !file.is_chain();
+  fields.springs = file.has_springs();
   auto simulation = std::make_unique<Simulation>(file);
   DrawnMotion motion;
-  const std::uint64_t steps = simulation->step_count(), parts = options.parts;
-  const std::uint64_t third = parts * std::max<std::uint64_t>(1, steps / parts / 3);
+  const std::uint64_t steps = simulation->step_count(), parts = options.parts, late = options.late;
+  const std::uint64_t third = parts * std::max<std::uint64_t>(1, (steps - late) / parts / 3);
   if (const auto failure = steps == 0 ? simulation->start_failure() : std::nullopt) motion.end = in_words(*failure);
   while (simulation->steps_done() < steps) {
     if (options.continued && simulation->steps_done() == steps / 2) {
@@ -210,11 +212,23 @@ DrawnMotion run_drawn(const nlohmann::ordered_json& scene, const std::filesystem
       motion.end = in_words(*early);
       break;
     }
-    if (const std::uint64_t n = simulation->steps_done(); n % third == 0 && n != steps)
-      collect(*simulation, fields, parts, motion.quantities);
+    const std::uint64_t n = simulation->steps_done();
+    if (late > 0 && n == late && simulation->diagnostics().kinetic > 0.0) {
+      motion.end = "a motion before its start";
+      break;
+    }
+    if (n > late && (n - late) % third == 0 && n != steps) collect(*simulation, fields, options, motion.quantities);
   }
-  collect(*simulation, fields, parts, motion.quantities);
+  if (simulation->steps_done() >= late) collect(*simulation, fields, options, motion.quantities);
   return motion;
+}
+
+const Quantity& first_named(const DrawnMotion& motion, std::string_view name) {
+  return *std::ranges::find_if(motion.quantities, [name](const Quantity& q) { return q.name.starts_with(name); });
+}
+const Quantity& last_named(const DrawnMotion& motion, std::string_view name) {
+  return *std::find_if(motion.quantities.rbegin(), motion.quantities.rend(),
+                       [name](const Quantity& q) { return q.name.starts_with(name); });
 }
 
 DrawnMotion in_units(DrawnMotion motion, const Dimensions& powers) {
@@ -235,6 +249,19 @@ DrawnMotion in_turned_axes(DrawnMotion motion) {
         const std::size_t row = k % 3, column = k / 3 % 3;
         q.values[k] = old[k - k % 9 + 3 * ((column + 1) % 3) + (row + 1) % 3];
       }
+  }
+  return motion;
+}
+
+DrawnMotion in_mirror(DrawnMotion motion) {
+  for (Quantity& q : motion.quantities) {
+    const bool is_axis = q.name.starts_with("angular momentum");
+    if (q.kind == Quantity::Kind::vectors)
+      for (std::size_t k = 0; k < q.values.size(); ++k)
+        if ((k % 3 == 0) != is_axis) q.values[k] = -q.values[k];
+    if (q.kind == Quantity::Kind::tensors)
+      for (std::size_t k = 0; k < q.values.size(); ++k)
+        if ((k % 3 == 0) != (k / 3 % 3 == 0)) q.values[k] = -q.values[k];
   }
   return motion;
 }
@@ -293,6 +320,28 @@ std::optional<std::string> different_bits(const DrawnMotion& expected, const Dra
   return std::nullopt;
 }
 
+DrawnMotion by_vertex(DrawnMotion motion) {
+  std::erase_if(motion.quantities, [](const Quantity& q) {
+    return !of_each_vertex(q) && !q.name.starts_with("numbers of points") && !q.name.starts_with("time at");
+  });
+  for (const Quantity& numbers : std::vector<Quantity>(motion.quantities)) {
+    if (!numbers.name.starts_with("numbers of points")) continue;
+    std::map<double, int> count;
+    for (const double number : numbers.values) ++count[number];
+    const std::string when = numbers.name.substr(numbers.name.find(" at "));
+    for (Quantity& q : motion.quantities) {
+      if (!q.name.ends_with(when) || q.name.starts_with("time") || numbers.values.empty()) continue;
+      const std::size_t each = q.values.size() / numbers.values.size();
+      std::vector<double> kept;
+      for (std::size_t k = 0; k < q.values.size(); ++k)
+        if (const double number = numbers.values[k / each]; number >= 0.0 && count[number] == 1)
+          kept.push_back(q.values[k]);
+      q.values = kept;
+    }
+  }
+  return motion;
+}
+
 DrawnMotion first_of(const DrawnMotion& motion, const DrawnMotion& other) {
   DrawnMotion first{motion.end, {}};
   for (const Quantity& q : other.quantities) {
@@ -311,8 +360,8 @@ double MotionScales::of(const Dimensions& unit) const {
 }
 
 std::optional<Allowances> allowances(const DrawnMotion& motion, const DrawnMotion& disturbed,
-                                     const MotionScales& scales) {
-  constexpr double factor = 64.0, least = 1e-12;
+                                     const MotionScales& scales, double factor) {
+  constexpr double least = 1e-12;
   if (motion.end != disturbed.end || motion.quantities.size() != disturbed.quantities.size()) return std::nullopt;
   Allowances allowed;
   for (std::size_t k = 0; k < motion.quantities.size(); ++k) {

@@ -35,8 +35,14 @@ struct DrawnRunOptions {
   unsigned threads = 1;
   bool lanes = true;
   std::uint64_t parts = 1;  // that each step of the scene has been divided into: quantities are those of the same times
+  std::uint64_t late = 0;   // steps at the start that do not count; a run that moves in them ends with them
   bool continued = false;   // halfway the state is written, and read by another simulation that goes on
 };
+
+/// The first or last quantity whose name begins so.
+/// pre  there is one
+const Quantity& first_named(const DrawnMotion& motion, std::string_view name);
+const Quantity& last_named(const DrawnMotion& motion, std::string_view name);
 
 /// All of the run, in memory.
 ///
@@ -48,6 +54,8 @@ DrawnMotion run_drawn(const nlohmann::ordered_json& scene, const std::filesystem
 DrawnMotion in_units(DrawnMotion motion, const Dimensions& powers);
 /// The same, of a run in other axes: the old y, z and x are the new x, y and z.
 DrawnMotion in_turned_axes(DrawnMotion motion);
+/// The same, of a run seen in a mirror across x.
+DrawnMotion in_mirror(DrawnMotion motion);
 
 /// The same, of a run in a frame in which the origin is at a place and moves.
 DrawnMotion out_of_moving_frame(DrawnMotion motion, const Eigen::Vector3d& place, const Eigen::Vector3d& velocity);
@@ -56,6 +64,9 @@ DrawnMotion in_order_of(DrawnMotion motion, const std::vector<std::size_t>& numb
 
 /// The first difference of bits, in words; none where all are equal. NaN equals NaN.
 std::optional<std::string> different_bits(const DrawnMotion& expected, const DrawnMotion& found);
+/// Of each time the quantities that have a value by vertex, of the vertices whose number no other has: those of
+/// vertices that came apart have no order, and those of refinement no number.
+DrawnMotion by_vertex(DrawnMotion motion);
 /// Of these quantities as many values as the other run has, without those of all bodies together: what a run with
 /// another body has of the first ones.
 DrawnMotion first_of(const DrawnMotion& motion, const DrawnMotion& other);
@@ -69,11 +80,11 @@ struct MotionScales {
 
 /// By quantity, the largest absolute differences that are allowed.
 using Allowances = std::vector<double>;
-/// The differences of two runs that only rounding tells apart: 64 times those of `disturbed`, which begins elsewhere by
-/// far more than rounding, and at least 1e-12 in units of `scales`. None where that one differs in numbers of things:
-/// then rounding decides what happens.
+/// The differences of two runs that only rounding tells apart: `factor` times those of `disturbed`, which begins
+/// elsewhere by far more than rounding, and at least 1e-12 in units of `scales`. None where that one differs in numbers
+/// of things: then rounding decides what happens.
 std::optional<Allowances> allowances(const DrawnMotion& motion, const DrawnMotion& disturbed,
-                                     const MotionScales& scales);
+                                     const MotionScales& scales, double factor = 64.0);
 /// Allows for each quantity a multiple of the difference of two more runs, too.
 void add_differences(Allowances& allowed, const DrawnMotion& one, const DrawnMotion& other, double factor);
 /// The first quantity that differs by more, in words.

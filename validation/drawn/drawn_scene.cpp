@@ -77,7 +77,7 @@ class SceneOfAllKeys {
   // ---- bodies
 
   Json draw_mesh(double edge) {
-    const int kind = draw_.whole(0, 6);
+    const int kind = draw_.whole(0, solids_ ? 3 : 6);
     const auto few = [this](int most) { return draw_.whole(1, most); };
     if (kind <= 2) {
       dimension_ = 3;
@@ -151,7 +151,8 @@ class SceneOfAllKeys {
     scales_.edge = number(1e-3, 10.0);
     scales_.density = number(10.0, 1e4);
     scales_.rate = draw_.logarithmic(10.0, 1e4);
-    several_ = happens(0.4);
+    several_ = happens(0.5);
+    solids_ = several_ && happens(0.5);
     if (!several_) {
       json_["body"] = draw_body(scales_.edge, {0, 0, 0});
       json_["material"] = draw_material(scales_, true);
@@ -167,7 +168,7 @@ class SceneOfAllKeys {
       return;
     }
     // in a row along x, a gap of some hundredths of an edge between those that are not turned
-    const int count = draw_.whole(1, 3);
+    const int count = happens(0.1) ? 1 : draw_.whole(2, 3);
     double end = 0.0;
     json_["bodies"] = Json::array();
     for (int k = 0; k < count; ++k) {
@@ -325,13 +326,32 @@ class SceneOfAllKeys {
         json_["fixed"].push_back(held);
       }
     }
-    if (!happens(0.3)) return;
+    if (!happens(0.35)) return;
+    json_["driven"] = Json::array({drive(0.0)});
+    if (!happens(0.4)) return;
+    // the same vertices once more, or others
+    const Json first = json_["driven"][0];
+    const double end = first.contains("velocity") ? first.value("until", duration_) : duration_;
+    Json second = drive(end);
+    if (end < duration_ && happens(0.7))
+      for (const char* key : {"ids", "plane", "box", "sphere", "around"}) {
+        second.erase(key);
+        if (first.contains(key)) second[key] = first[key];
+      }
+    json_["driven"].push_back(second);
+  }
+
+  /// At a velocity, which may begin at a time [s]; along a path, or about an axis.
+  Json drive(double begin) {
     Json drive = selection(scales_.points);
     const int kind = draw_.whole(0, 2);
     if (kind == 0) {
       drive["velocity"] = velocity();
-      if (happens(0.5)) drive["from"] = time(0.0, 0.4);
-      if (happens(0.5)) drive["until"] = time(0.5, 0.9);
+      if (begin > 0.0 && begin < duration_)
+        drive["from"] = begin;
+      else if (happens(0.5))
+        drive["from"] = time(0.0, 0.4);
+      if (begin == 0.0 && happens(0.5)) drive["until"] = time(0.5, 0.9);
       if (happens(0.4)) drive["reverse_every"] = time(0.1, 0.5);
     } else if (kind == 1) {
       drive["path"] = {{{"at", time(0.0, 0.3)}, {"place", json_of(centre_)}},
@@ -343,7 +363,7 @@ class SceneOfAllKeys {
                         {{{"at", time(0.0, 0.3)}, {"degrees", 0}},
                          {{"at", time(0.4, 0.9)}, {"degrees", written(draw_.uniform(-20, 20))}}}}};
     }
-    json_["driven"] = Json::array({drive});
+    return drive;
   }
 
   void draw_forces() {
@@ -413,12 +433,12 @@ class SceneOfAllKeys {
         min[along] = scales_.high[along] - inside;
       one["box"] = {{"min", json_of(min)}, {"max", json_of(max)}};
     }
-    if (happens(0.3)) {
+    if (happens(0.45)) {
       one["velocity"] = json_of(0.3 * speed_ * draw_.direction());
       if (happens(0.5)) one["from"] = time(0.0, 0.4);
       if (happens(0.5)) one["until"] = time(0.5, 0.9);
     }
-    if (happens(0.2)) law(one);
+    if (happens(0.4)) law(one);
     return one;
   }
   /// Some numbers of a law.
@@ -432,7 +452,7 @@ class SceneOfAllKeys {
   }
 
   void draw_contact() {
-    if (!happens(0.45)) return;
+    if (!happens(0.55)) return;
     Json contact;
     law(contact);
     contact["pressure"] =
@@ -444,12 +464,15 @@ class SceneOfAllKeys {
       for (int k = draw_.whole(1, 2); k > 0; --k) contact["obstacles"].push_back(obstacle());
     }
     if (dimension_ == 3 && (several_ || happens(0.2)))
-      contact["bodies"] = one_of<std::string>({"none", "others", "themselves", "all"});
-    if (several_ && happens(0.4)) {
-      Json pair{{"of", {draw_.below(json_["bodies"].size()), draw_.below(json_["bodies"].size())}}};
-      if (happens(0.5)) pair["touch"] = one_of<std::string>({"yes", "no"});
-      law(pair);
-      contact["pairs"] = Json::array({pair});
+      contact["bodies"] = one_of<std::string>({"none", "others", "others", "themselves", "all", "all"});
+    if (several_ && happens(0.5)) {
+      contact["pairs"] = Json::array();
+      for (int k = draw_.whole(1, 2); k > 0; --k) {
+        Json pair{{"of", {draw_.below(json_["bodies"].size()), draw_.below(json_["bodies"].size())}}};
+        if (happens(0.5)) pair["touch"] = one_of<std::string>({"yes", "yes", "no"});
+        law(pair);
+        contact["pairs"].push_back(pair);
+      }
     }
     json_["contact"] = contact;
   }
@@ -540,7 +563,7 @@ class SceneOfAllKeys {
 
   void draw_sleep() {
     if (!happens(0.2)) return;
-    json_["sleep"] = {{"speed", written(speed_ * draw_.logarithmic(1e-3, 0.3))},
+    json_["sleep"] = {{"speed", written(speed_ * draw_.logarithmic(1e-2, 3.0))},
                       {"time", written(step_ * draw_.uniform(1.0, 6.0))}};
   }
 
@@ -580,7 +603,7 @@ class SceneOfAllKeys {
   Scales scales_;
   Mesh mesh_;
   int dimension_ = 3;  // of the body drawn last
-  bool simplices_ = true, several_ = false;
+  bool simplices_ = true, several_ = false, solids_ = false;
   bool is_free_ = false, keeps_energy_ = false;  // nothing holds it in space; nothing damps it
   double step_ = 0.0, duration_ = 0.0, speed_ = 0.0, acceleration_ = 0.0;
   Vector3d centre_{0, 0, 0}, size_{0, 0, 0};

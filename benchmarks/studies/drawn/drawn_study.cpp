@@ -11,12 +11,13 @@
 
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/scratch_folder.h"
+#include "core/meshes/text/file_text.h"
 #include "core/plain/error.h"
 #include "core/scene/file/keys/strict_json.h"
 #include "validation/drawn/broken_scene.h"
 #include "validation/drawn/drawn_scene.h"
-#include "validation/drawn/drawn_trial.h"
-#include "validation/drawn/value_pairs.h"
+#include "validation/drawn/met_values.h"
+#include "validation/drawn/relations/drawn_trial.h"
 
 namespace dartboard {
 namespace {
@@ -38,7 +39,7 @@ struct DrawnResults {
   std::vector<Broken> broken;
   std::vector<std::string> wrong_refusals;
   std::size_t scenes = 0, faults = 0;
-  ValuePairs pairs;
+  MetValues met;
 };
 
 std::string_view word_of(RelationOutcome outcome) {
@@ -124,15 +125,18 @@ Json numbers_of(const DrawnResults& results) {
   }
   for (const Broken& one : results.broken)
     broken.push_back({{"scene", one.scene}, {"relation", one.relation}, {"words", one.words}, {"smallest", one.file}});
-  return {{"scenes", results.scenes}, {"values", results.pairs.values()}, {"pairs", results.pairs.pairs()},
-          {"faults", results.faults}, {"relations", relations},           {"broken", broken}};
+  return {{"scenes", results.scenes},
+          {"values", results.met.values()},
+          {"pairs", results.met.pairs()},
+          {"triples", results.met.triples()},
+          {"faults", results.faults},
+          {"relations", relations},
+          {"broken", broken}};
 }
 
 Report of_scene(const DrawnPlan& plan, StudyLog& log) {
-  std::ifstream in(plan.scene, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  const Json scene = first_steps(parse_strict_json(text.str(), plan.scene.string()), plan.steps);
+  const std::string text = file_text(plan.scene, "a scene");
+  const Json scene = first_steps(parse_strict_json(text, plan.scene.string()), plan.steps);
   const ScratchFolder scratch("drawn");
   const std::string name = plan.scene.stem().string();
   log.begin("validate drawn: " + name, 1);
@@ -153,18 +157,44 @@ Report of_scene(const DrawnPlan& plan, StudyLog& log) {
   return report;
 }
 
+/// The scenes that have all pairs of values.
+Report chosen(const DrawnPlan& plan, StudyLog& log) {
+  std::vector<std::set<std::string>> values;
+  log.begin("validate drawn --choose", plan.count);
+  for (std::uint64_t number = plan.first; number < plan.first + plan.count; ++number) {
+    values.push_back(values_of(drawn_scene(plan.seed, number)));
+    log.advance(std::to_string(number));
+  }
+  MetValues met;
+  Json numbers = Json::array();
+  Table table({{"scene", Align::right}, {"pairs so far", Align::right}});
+  for (const std::size_t k : covering(values)) {
+    met.add(values[k]);
+    numbers.push_back(plan.first + k);
+    table.add_row({std::to_string(plan.first + k), std::to_string(met.pairs())});
+  }
+  Report report;
+  report.opening = fmt::format("{} of {} scenes have all {} pairs of {} keys and choices that meet in one of them.",
+                               numbers.size(), plan.count, met.pairs(), met.values());
+  report.tables.push_back({"chosen", "Scenes, those first that have most new pairs", table});
+  report.numbers = {{"chosen", numbers}, {"pairs", met.pairs()}, {"values", met.values()}};
+  report.facts = {{"seed", plan.seed}, {"first", plan.first}, {"scenes", plan.count}};
+  return report;
+}
+
 }  // namespace
 
 Report drawn_study(const DrawnPlan& plan, StudyLog& log) {
   if (!plan.relation.empty()) (void)find_relation(plan.relation);
   if (!plan.scene.empty()) return of_scene(plan, log);
+  if (plan.only_choose) return chosen(plan, log);
   const ScratchFolder scratch("drawn");
   DrawnResults results;
   log.begin("validate drawn", plan.count);
   for (std::uint64_t number = plan.first; number < plan.first + plan.count; ++number) {
     const Json scene = drawn_scene(plan.seed, number);
     const std::string name = fmt::format("{}-{}", plan.seed, number);
-    results.pairs.add(values_of(scene));
+    results.met.add(values_of(scene));
     ++results.scenes;
     take(try_relations(scene, "", scratch.path(), plan.relation), scene, name, "", scratch.path(), plan.folder,
          results);
@@ -178,8 +208,9 @@ Report drawn_study(const DrawnPlan& plan, StudyLog& log) {
   }
   Report report;
   report.opening = fmt::format(
-      "{} scenes of {} keys and choices, {} pairs of which meet in one of them; {} scenes with one fault each.",
-      results.scenes, results.pairs.values(), results.pairs.pairs(), results.faults);
+      "{} scenes of {} keys and choices, {} pairs and {} triples of which meet in one of them; {} scenes with one fault "
+      "each.",
+      results.scenes, results.met.values(), results.met.pairs(), results.met.triples(), results.faults);
   report.tables.push_back({"relations", "Relations of drawn scenes", relations_table(results)});
   report.tables.push_back({"reasons", "Where relations do not apply", reasons_table(results)});
   add_broken(results, report);

@@ -15,6 +15,7 @@ struct DrawnPlan {
   std::uint64_t seed = 1, first = 0;  // of the scenes, and the number of the first
   std::size_t count = 1000;
   std::size_t broken = 10;            // faults of each scene
+  bool only_choose = false;           // the scenes that have all pairs of values: no relation is tried
   std::string relation{};             // only this one; empty: all
   std::filesystem::path scene{};      // a file; empty: drawn scenes
   std::uint64_t steps = 100;          // of that scene

@@ -6,22 +6,24 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <vector>
 
+#include "tests/validation/drawn/covering_scenes.h"
 #include "validation/drawn/broken_scene.h"
+#include "validation/drawn/met_values.h"
 #include "validation/drawn/scene_walk.h"
-#include "validation/drawn/value_pairs.h"
 
 namespace dartboard::drawn_scene_test {
 namespace {
 
-constexpr std::uint64_t seed = 1, count = 400;
+constexpr std::uint64_t seed = 1;
 
 /// The keys of some hundred scenes, with the values of choices and without.
-const ValuePairs& drawn_values() {
-  static const ValuePairs all = [] {
-    ValuePairs pairs;
-    for (std::uint64_t number = 0; number < count; ++number) pairs.add(values_of(drawn_scene(seed, number)));
-    return pairs;
+const MetValues& drawn_values() {
+  static const MetValues all = [] {
+    MetValues met;
+    for (const std::uint64_t number : covering_scenes) met.add(values_of(drawn_scene(seed, number)));
+    return met;
   }();
   return all;
 }
@@ -31,7 +33,7 @@ bool is_in_what_is_not_drawn(Shape shape) {
   return shape == Shape::tag || shape == Shape::expect || shape == Shape::expected_place;
 }
 
-TEST(DrawnScenes, HaveEveryKeyAndChoiceButThoseThatAreNamedWithAReasonAndMostPairs) {
+TEST(CoveringScenes, HaveEveryKeyAndChoiceButThoseThatAreNamedWithAReasonAndAllPairs) {
   const auto not_drawn = keys_not_drawn();
   for (const SceneKey& key : scene_keys()) {
     const bool is_left_out = std::ranges::any_of(
@@ -48,8 +50,23 @@ TEST(DrawnScenes, HaveEveryKeyAndChoiceButThoseThatAreNamedWithAReasonAndMostPai
     ASSERT_NE(find_key(key.shape, key.name), nullptr) << key.name;
     EXPECT_FALSE(drawn_values().has(std::string(help_of(key.shape).name) + "." + std::string(key.name))) << key.name;
   }
-  // of some 230 values; a few may change with a key that is added
-  EXPECT_GT(drawn_values().pairs(), 14000u);
+  EXPECT_EQ(drawn_values().pairs(), covered_pairs)
+      << "scenes are drawn otherwise: tests/validation/drawn/covering_scenes.h says how they are chosen";
+}
+
+TEST(MetValues, AreCountedOneByOneInPairsAndInTriples) {
+  MetValues met;
+  EXPECT_EQ(met.add({"a", "b", "c"}), 3u);
+  EXPECT_EQ(met.add({"b", "c", "d"}), 2u);
+  EXPECT_EQ(met.add({"a", "b"}), 0u);
+  EXPECT_EQ(met.values(), 4u);
+  EXPECT_EQ(met.pairs(), 5u);
+  EXPECT_EQ(met.triples(), 2u);
+}
+
+TEST(MetValues, OfAFewScenesAreThoseOfAll) {
+  // the third has most pairs; of the others only the last has one that is new
+  EXPECT_EQ(covering({{"a", "b"}, {"b", "c"}, {"a", "b", "c"}, {"c"}, {"c", "d"}}), (std::vector<std::size_t>{2, 4}));
 }
 
 TEST(DrawnScenes, AreTheSameAgainAndNoTwoAlike) {

@@ -1,4 +1,4 @@
-#include "validation/drawn/drawn_trial.h"
+#include "validation/drawn/relations/drawn_trial.h"
 
 #include <fmt/format.h>
 
@@ -14,14 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-RelationFound try_relation(const JudgedScene& scene, const Relation& relation) {
-  try {
-    return relation.judge(scene);
-  } catch (const std::exception& error) {
-    return {RelationOutcome::breaks, fmt::format("one of the runs ends by \"{}\"", error.what())};
-  }
-}
 
 /// [s] When a drive begins.
 double begin_of(const Json& drive) {
@@ -39,6 +31,14 @@ const Relation& find_relation(std::string_view name) {
     known += (known.empty() ? "" : ", ") + std::string(relation.name);
   }
   throw InputError(fmt::format("there is no relation '{}'; expected one of {}", name, known));
+}
+
+RelationFound try_relation(const JudgedScene& scene, const Relation& relation) {
+  try {
+    return relation.judge(scene);
+  } catch (const std::exception& error) {
+    return {RelationOutcome::breaks, fmt::format("one of the runs ends by \"{}\"", error.what())};
+  }
 }
 
 Json first_steps(Json scene, std::uint64_t steps) {

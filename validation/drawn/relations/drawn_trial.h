@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "validation/drawn/relations.h"
+#include "validation/drawn/relations/relations.h"
 
 namespace dartboard {
 
@@ -24,7 +24,10 @@ const Relation& find_relation(std::string_view name);
 /// The first steps of a scene: what begins later is left out, and what is driven later is held.
 nlohmann::ordered_json first_steps(nlohmann::ordered_json scene, std::uint64_t steps);
 
-/// The relations tried on a scene, all or one of that name. A run that throws breaks its relation.
+/// A relation tried on a scene. A run that throws breaks it.
+RelationFound try_relation(const JudgedScene& scene, const Relation& relation);
+
+/// The relations tried on a scene, all or one of that name.
 ///
 /// throws  InputError for a scene that is wrong
 std::vector<RelationTrial> try_relations(const nlohmann::ordered_json& scene, const std::filesystem::path& folder,
