@@ -64,8 +64,9 @@ bool Bounces::after(const Step& step, ContactLosses& losses) {
 }
 
 void Bounces::add(Touch touch, std::uint32_t sample, std::uint32_t obstacle, const Step& step) {
+  if (touch.site.mobility(step.inverse_mass, step.held) == 0.0) return;
+  // 0 where the normal is along held axes; it may turn while they touch
   touch.mobility = touch.site.mobility_along(touch.normal, step.inverse_mass, step.held);
-  if (touch.mobility == 0.0) return;
   touches_.push_back(touch);
   starts_.push_back({.sample = sample, .obstacle = obstacle});
 }
@@ -182,6 +183,7 @@ bool Bounces::damp(Side side, const Step& step, ContactLosses& losses) {
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const std::size_t place = side == Side::before ? k : touches_.size() - 1 - k;
     const Touch& t = touches_[place];
+    if (t.mobility == 0.0) continue;
     const Start& start = starts_[place];
     const double rate = t.rate(step.v);
     // the depths half way through the step, and the least within it, of a contact that comes apart

@@ -198,5 +198,26 @@ TEST(HeldAxes, AreSaidInSelectionsAndFrames) {
   EXPECT_EQ(std::ranges::count(frame.held, 0), 18);
 }
 
+// A ball comes along the held axis, and the box then slides off it: the bounce is one of the ball's speed, whether or
+// not the normal was exactly along the axis at first.
+TEST(HeldAxes, DoNotChangeTheSpeedThatABounceBeganWith) {
+  const auto energy_with = [](double offset) {
+    Json scene = Json::parse(R"({"name": "ball", "step": 0.0005, "duration": 0.05, "gravity": [0, 0, 0],
+      "body": {"generate": {"box": {"cells": [1, 1, 1], "spacing": 0.1}}},
+      "material": {"density": 1000, "young": 1e7, "poisson": 0.3, "viscosity": 0},
+      "forces": [{"sphere": {"centre": [0, 0, 0], "radius": 9}, "acceleration": [0, -20, 0], "from": 0.012}],
+      "fixed": [{"sphere": {"centre": [0, 0, 0], "radius": 9}, "axes": ["x"]}],
+      "contact": {"pressure": 1e5, "depth": 0.02, "restitution": 0.5,
+                  "obstacles": [{"sphere": {"radius": 0.099}, "velocity": [1, 0, 0], "until": 0.01}]}})");
+    scene["contact"]["obstacles"][0]["sphere"]["centre"] = {-0.1, offset, 0};
+    Simulation simulation(parse(scene));
+    run(simulation);
+    return simulation.diagnostics().kinetic;
+  };
+  const double expected = energy_with(1e-12);
+  EXPECT_GT(expected, 0.1);
+  EXPECT_NEAR(energy_with(0.0), expected, 1e-6 * expected);
+}
+
 }  // namespace
 }  // namespace dartboard::held_axes_test
