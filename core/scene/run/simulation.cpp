@@ -308,8 +308,8 @@ StepResult Simulation::step_in_parts() {
     if (go_on(this->operations() != operations, now, end_of_part(now, end)) == Change::none) continue;
     remember_pressed_faces();
     result = watch_.changed_within_step(stepped_system(), stepped_motion());
-    watch_.keeps_within_step(done_, now - static_cast<double>(done_) * step_);
     if (!result.ok()) return result;
+    watch_.keeps_within_step(done_, now - static_cast<double>(done_) * step_);
   }
 }
 

@@ -22,8 +22,9 @@ class EventClock {
 
   /// The next step boundary; `never` after the last.
   std::uint64_t next() const { return next_; }
-  /// [s] The time that `next` is the boundary for, if it lies between two boundaries; no value if it lies on one, and
-  /// after the last.
+  /// [s] The time that `next` is the boundary for.
+  double time() const { return time_; }
+  /// [s] The same, if it lies between two boundaries; no value if it lies on one, and after the last.
   std::optional<double> time_between() const {
     if (next_ == never || step_at(time_, step_)) return {};
     return time_;

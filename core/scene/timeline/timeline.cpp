@@ -18,10 +18,13 @@ std::optional<std::size_t> Timeline::schedule(const SceneEvent& event) {
 }
 
 void Timeline::happen(std::uint64_t n) {
-  for (Scheduled& scheduled : events_) {
-    if (scheduled.clock.next() > n) continue;
-    while (scheduled.clock.next() <= n) scheduled.clock.advance();
-    apply(scheduled);
+  std::vector<Scheduled*> due;
+  for (Scheduled& scheduled : events_)
+    if (scheduled.clock.next() <= n) due.push_back(&scheduled);
+  std::ranges::stable_sort(due, {}, [](const Scheduled* one) { return one->clock.time(); });
+  for (Scheduled* one : due) {
+    while (one->clock.next() <= n) one->clock.advance();
+    apply(*one);
   }
 }
 

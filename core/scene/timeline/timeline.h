@@ -32,7 +32,7 @@ class Timeline {
   /// throws  InputError as SimulatedBody::make_ready
   std::optional<std::size_t> schedule(const SceneEvent& event);
 
-  /// Apply the events that are due after n steps.
+  /// Apply the events that are due after n steps, by their times; of one time in the order of the list.
   ///
   /// throws  StressError; the events before count
   void happen(std::uint64_t n);

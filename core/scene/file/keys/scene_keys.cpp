@@ -96,7 +96,7 @@ std::vector<SceneKey> keys_by_hand() {
        .standard = "\"warn\"", .help = "what is done about a step that is too long to be stable, at the start and after "
                                        "each event: say so, refuse the scene (after an event: stop), or divide it"},
       {.shape = scene, .name = "events", .type = objects, .of = event, .standard = "[]",
-       .help = "what happens to the body; those due at one time happen in this order"},
+       .help = "what happens to the body, by time; those due at one time happen in this order"},
       {.shape = scene, .name = "event_times", .type = choice, .choices = {"steps", "exact"}, .standard = "\"steps\"",
        .help = "when events happen: at the first multiple of the step that is not before their time, which is cheap and "
                "leaves an error of the order of the step; or at that very time, up to which a shorter step is taken and "

@@ -76,6 +76,15 @@ TEST(Simulation, NamesTheEventsThatNeverDidAnything) {
   EXPECT_EQ(simulation.idle_events(), (std::vector<std::string>{"/events/0", "/events/2"}));
 }
 
+TEST(Simulation, AppliesEventsOfOneStepByTheirTimes) {
+  // the one that comes second finds nothing
+  Simulation simulation(parse(with_events(moving_box(), R"([{"at": 0.0018, "remove": {"ids": [0]}},
+                                                            {"at": 0.0012, "remove": {"ids": [0]}}])")));
+  run(simulation);
+  EXPECT_EQ(cells(simulation), 47u);
+  EXPECT_EQ(simulation.idle_events(), std::vector<std::string>{"/events/0"});
+}
+
 // ---- an accuracy in place of a step
 
 Json with_accuracy() {
