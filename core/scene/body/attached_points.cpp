@@ -35,9 +35,13 @@ struct Simplex {
 /// The simplices of some of the cells of a mesh, and the search for the one that is nearest to a place.
 class TargetCells {
  public:
-  TargetCells(const Mesh& mesh, std::size_t first, std::size_t last)
-      : mesh_(mesh), thickness_(border_thickness(mesh.points)) {
-    for (std::size_t c = first; c < last; ++c) add_cell(static_cast<std::uint32_t>(c));
+  TargetCells(const Mesh& mesh, std::size_t first, std::size_t last) : mesh_(mesh) {
+    std::vector<Vector3d> corners;
+    for (std::size_t c = first; c < last; ++c) {
+      add_cell(static_cast<std::uint32_t>(c));
+      for (const std::uint32_t p : mesh.cell(c)) corners.push_back(mesh.points[p]);
+    }
+    thickness_ = border_thickness(corners);
     for (std::size_t k = 0; k < simplices_.size(); ++k) {
       if (k % of_block == 0) blocks_.emplace_back();
       blocks_.back().extend(simplices_[k].box);
@@ -156,7 +160,7 @@ class TargetCells {
   }
 
   const Mesh& mesh_;
-  double thickness_;
+  double thickness_ = 0.0;  // of the borders of these cells alone
   std::vector<Simplex> simplices_;
   std::vector<AlignedBox3d> blocks_;  // of 64 simplices, which are often next to each other
 };

@@ -141,6 +141,31 @@ TEST(SceneAttachments, AreToTheSameCellsOfBodiesThatAreTurned) {
   for (const double degrees : {17.0, 120.0, 240.0}) EXPECT_EQ(cells_of(degrees), expected) << degrees;
 }
 
+// The nearest points of two cells are 1e-8 of the size apart, more than the thickness of borders of the ball alone.
+TEST(SceneAttachments, AreToTheSameCellsBesideABodyFarAway) {
+  const auto corners_of = [](bool has_far_body) {
+    Json json = two_boxes();
+    json["bodies"] = Json::parse(R"([
+      {"generate": {"ball": {"layers": 2, "radius": 1.7171}}, "scale": 1.10388, "translate": [1.89546, 0, 1.89546],
+       "rotate": {"axis": [1, 0, 0], "degrees": 94}},
+      {"generate": {"box": {"cells": [1, 1, 1], "spacing": 0.97}}, "scale": 1.30162, "translate": [3.82883, 0.063, 0],
+       "rotate": {"axis": [1, 0, 0], "degrees": -26.9}}])");
+    if (has_far_body)
+      json["bodies"].push_back(
+          {{"generate", {{"box", {{"cells", {1, 1, 1}}, {"spacing", 0.5}}}}}, {"translate", {-150, 0, 0}}});
+    json["attachments"] =
+        Json::parse(R"([{"box": {"min": [0, 0, 0.09], "max": [6, 0.9, 3]}, "to": 0, "stiffness": 1e6}])");
+    const SceneFile scene = parse(json);
+    std::vector<std::array<std::uint32_t, 4>> corners;
+    const std::vector<AttachedPoints> found = find_attachments(scene, make_problem(scene));
+    for (const Attachment& one : found.at(0).points) corners.push_back(one.corners);
+    return corners;
+  };
+  const auto expected = corners_of(false);
+  ASSERT_EQ(expected.size(), 2u);
+  EXPECT_EQ(corners_of(true), expected);
+}
+
 // Where a vertex is in no cell, it is not farther away from one than the longest edge.
 TEST(SceneAttachments, AreToTheNearestCellOfTheBody) {
   Json json = two_boxes();
