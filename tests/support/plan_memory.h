@@ -2,6 +2,9 @@
 // The memory of each part of a plan, computed by hand from the mesh: the oracle of SimulatedBody::memory.
 
 #include <algorithm>
+#include <map>
+#include <memory>
+#include <vector>
 
 #include "core/base/bytes.h"
 #include "core/scene/plan/scene_plan.h"
@@ -10,6 +13,30 @@
 #include "tests/support/integrator_memory.h"
 
 namespace dartboard::memory {
+
+/// A body that stays unchanged, and positions and velocities that may move without it.
+class SystemArrays {
+ public:
+  /// With the needs of a scene, except for changes of topology.
+  ///
+  /// throws  InputError as make_simulated_body does
+  SystemArrays(const Problem& problem, BodyNeeds needs) {
+    needs.topology_changes = false;
+    body_ = make_simulated_body(problem, needs);
+    const Motion start = body_->motion();
+    x.assign(start.x.begin(), start.x.end());
+    v.assign(start.v.begin(), start.v.end());
+  }
+
+  const SimulatedBody& body() const { return *body_; }
+  SpringSystem system() const { return body_->system(); }
+  Motion motion() { return {x, v}; }
+
+  std::vector<Eigen::Vector3d> x, v;
+
+ private:
+  std::unique_ptr<SimulatedBody> body_;
+};
 
 /// For an event: the memory of its look-ups at the start.
 inline std::size_t predicted_event_bytes(const SceneEvent& e, const ScenePlan& plan) {
@@ -28,31 +55,53 @@ inline std::size_t predicted_event_bytes(const SceneEvent& e, const ScenePlan& p
     return faces == nullptr ? 0 : faces->size() * sizeof(DartId);
   }
   if (const auto* stress = std::get_if<TearWhereStressed>(&e.action)) {
-    const std::size_t places =
-        plan.needs.body.storage == Storage::tetrahedra ? 4 * plan.counts.cells : plan.counts.darts;
+    const std::size_t places = plan.needs.body.storage == Storage::tetrahedra ? 4 * plan.counts.cells : plan.darts;
     return plan.counts.vertices * sizeof(Eigen::Matrix3d) + (stress->seam ? (places + 7) / 8 : 0);
   }
   return 0;
 }
 
+/// The number of faces of a solid, or edges of a surface, of one cell alone, and of their corners.
+inline std::size_t boundary_size(const Mesh& mesh) {
+  std::map<std::vector<std::uint32_t>, int> cells_of;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c)
+    for (const std::vector<int>& cycle : faces_of(mesh.kinds[c])) {
+      std::vector<std::uint32_t> face;
+      for (const int k : cycle) face.push_back(mesh.cell(c)[static_cast<std::size_t>(k)]);
+      if (mesh.highest_dimension() == 3) {
+        std::ranges::sort(face);
+        ++cells_of[face];
+      } else {
+        for (std::size_t k = 0; k < face.size(); ++k) {
+          const auto [a, b] = std::minmax(face[k], face[(k + 1) % face.size()]);
+          ++cells_of[{a, b}];
+        }
+      }
+    }
+  std::size_t size = 0;
+  for (const auto& [points, count] : cells_of)
+    if (count == 1) size += 1 + points.size();
+  return size;
+}
+
 inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& problem, const ScenePlan& plan,
                                    const PlanItem& item) {
   constexpr std::size_t number = sizeof(std::uint32_t), real = sizeof(double);
-  const MeshTally& n = plan.counts;
+  const CellCounts& n = plan.counts;
   const Storage storage = plan.needs.body.storage;
   const bool tetrahedra = storage == Storage::tetrahedra;
   const std::size_t dimension = storage == Storage::surface ? 2 : 3;
   SystemArrays arrays(problem, plan.needs.body);
   switch (item.part) {
-    case Part::map: return tetrahedra ? n.cells * 5 * number : n.darts * (dimension + 2) * number;
+    case Part::map: return tetrahedra ? n.cells * 5 * number : plan.darts * (dimension + 2) * number;
     // three are in use at once while a body is built: those of a coverage, of a cell visited by it, of the cells around
     // that: a bit for each dart, in words of two bytes, and a list of an eighth of these words and 64
     case Part::marks: {
-      const std::size_t words = (n.darts + 15) / 16;
+      const std::size_t words = (plan.darts + 15) / 16;
       return 3 * (2 * words + number * (words / 8 + 64));
     }
     // places for the numbers of vertices, edges, faces and cells: for a tetrahedron 4, 6, 4 and 1
-    case Part::embeddings: return tetrahedra ? n.cells * 15 * number : n.darts * (dimension + 1) * number;
+    case Part::embeddings: return tetrahedra ? n.cells * 15 * number : plan.darts * (dimension + 1) * number;
     case Part::cell_darts: return (n.vertices + n.edges + (dimension == 3 ? n.faces : 0) + n.cells) * number;
     case Part::cells:
       // for springs, corners; with a Young's modulus, a share for each of the six edges of a tetrahedron, for each dart
@@ -63,7 +112,7 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
               : scene.diagonals == Diagonals::none    ? n.cells * sizeof(SolidNodes)
                                                       : 0) +
              (problem.material.young > 0.0 && problem.material.model == Model::springs
-                  ? (tetrahedra ? 6 * n.cells : n.darts) * real
+                  ? (tetrahedra ? 6 * n.cells : plan.darts) * real
                   : 0);
     case Part::components: return n.cells * number + n.components * (2 * number + sizeof(std::size_t));
     case Part::vertices: return n.vertices * (2 * real + 2 * vector + number);
@@ -82,7 +131,7 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
     }
     case Part::driven: {
       DrivenVertices vertices(scene, problem.mesh.points);
-      vertices.apply(0.0, scene.step, n.point, arrays.v);
+      vertices.apply(0.0, scene.step, arrays.body().vertices().point, arrays.v);
       DivergenceDetector detector;
       detector.start(arrays.system(), arrays.motion(), scene.step);
       return vertices.bytes() + detector.driven_bytes();
@@ -134,7 +183,7 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
     case Part::output_cells:
       if (scene.is_chain()) return n.edges * real + 2 * number;
       return n.cells * (sizeof(CellKind) + number + real + number) + number + problem.mesh.nodes.size() * number +
-             (n.boundary_facets + 1 + n.boundary_corners) * number;
+             (1 + boundary_size(problem.mesh)) * number;
     case Part::probes: return scene.probes.size() * number;
     case Part::sleeping: return n.vertices * (2 * number + (scene.forces.empty() ? 0 : vector));
     case Part::gravity:

@@ -14,8 +14,7 @@
 #include "benchmarks/harness/statistics.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/scenes/explain_report.h"
-#include "core/scene/file/scene_problem.h"
-#include "core/scene/plan/measured_plan.h"
+#include "core/scene/plan/scene_plan.h"
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/simulation.h"
 #include "validation/recommend/settle_accuracy.h"
@@ -52,10 +51,7 @@ MeasuredSteps measured_steps(const SceneFile& scene) {
 void explain(const ExplainOptions& options, Outcome& outcome) {
   SceneFile scene = read_named_scene(options.scene);
   const std::optional<SettledAccuracy> settled = settle_with_progress(scene, options.json);
-  const Problem problem = make_problem(scene);
-  ScenePlan plan = plan_scene(scene, problem);
-  // building body and events finds whatever they refuse in the scene
-  add_bytes(plan, measured_memory(scene));
+  const ScenePlan plan = plan_scene(scene);
   std::optional<MeasuredSteps> measured;
   if (options.measure) measured = measured_steps(scene);
   outcome.exit_code = plan.unplanned.empty() ? exit_agrees : exit_disagrees;

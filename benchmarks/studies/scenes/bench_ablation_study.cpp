@@ -8,8 +8,7 @@
 #include "benchmarks/harness/processes.h"
 #include "benchmarks/studies/scenes/ablation_study.h"
 #include "benchmarks/studies/scenes/bench_ablation_report.h"
-#include "core/scene/file/scene_problem.h"
-#include "core/scene/plan/measured_plan.h"
+#include "core/scene/plan/scene_plan.h"
 #include "core/scene/run/simulation.h"
 
 namespace dartboard {
@@ -19,7 +18,7 @@ namespace {
 std::map<std::string, AblationBytes> bytes_of_variants() {
   std::map<std::string, AblationBytes> all;
   for (const AblationVariant& variant : ablation_variants()) {
-    const MeshTally counts = plan_scene(variant.scene, make_problem(variant.scene)).counts;
+    const CellCounts counts = Simulation(variant.scene).body().counts();
     const MemoryReport report = measured_memory(variant.scene);
     AblationBytes bytes{.tetrahedra = counts.cells,
                         .springs = counts.edges,

@@ -14,7 +14,7 @@ namespace {
 
 std::string counted(const ScenePlan& plan) {
   return fmt::format("{} vertices, {} edges, {} faces, {} cells, {} darts", plan.counts.vertices, plan.counts.edges,
-                     plan.counts.faces, plan.counts.cells, plan.counts.darts);
+                     plan.counts.faces, plan.counts.cells, plan.darts);
 }
 
 std::string step_text(double seconds) {
@@ -116,7 +116,7 @@ nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan,
                                 {"edges", plan.counts.edges},
                                 {"faces", plan.counts.faces},
                                 {"cells", plan.counts.cells},
-                                {"darts", plan.counts.darts}}},
+                                {"darts", plan.darts}}},
                               {"bytes", plan.bytes()}};
   json["selections"] = to_json(plan.selections);
   json["remarks"] = plan.remarks;

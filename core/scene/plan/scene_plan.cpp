@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/counted.h"
@@ -10,10 +12,8 @@
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/file/keys/scene_keys.h"
 #include "core/scene/file/scene_materials.h"
-#include "core/scene/file/step_times.h"
-#include "core/scene/plan/event_forecast.h"
-#include "core/scene/survey/bending_stiffness.h"
-#include "core/scene/survey/cut_counts.h"
+#include "core/scene/file/scene_problem.h"
+#include "core/scene/run/simulation.h"
 #include "core/scene/survey/mesh_direction.h"
 #include "core/scene/timeline/driven_vertices.h"
 #include "core/time/integrators.h"
@@ -50,14 +50,19 @@ std::string output_reason(std::string_view key, const std::optional<std::uint64_
 
 class Planner {
  public:
-  Planner(const SceneFile& scene, const Problem& problem) : scene_(scene), problem_(problem) {
+  Planner(const SceneFile& scene, const Problem& problem, const Simulation& simulation)
+      : scene_(scene), problem_(problem), body_(simulation.body()) {
     plan_.needs = needs_of(scene, problem);
-    plan_.counts = tally_of(problem.mesh);
-    plan_.map = plan_.needs.body.topology_changes ? map_name(plan_.needs.body.storage) : "no map";
-    plan_.steps = step_of_time(scene.duration, scene.step);
-    plan_.events = forecast_events(scene, problem.mesh, plan_.counts);
-    selections();
-    for (const StiffBody& body : find_stiff_bodies(scene, problem)) plan_.remarks.push_back(to_string(body));
+    plan_.counts = body_.counts();
+    for (const CellKind kind : problem.mesh.kinds)
+      for (const std::vector<int>& face : faces_of(kind)) plan_.darts += 2 * face.size();
+    plan_.map = plan_.needs.body.topology_changes ? body_.map_name() : "no map";
+    plan_.steps = simulation.step_count();
+    plan_.selections.assign(simulation.selections().begin(), simulation.selections().end());
+    plan_.events = forecast_events(scene, plan_.selections, plan_.counts.cells);
+    for (const SelectionCount& count : plan_.selections)
+      if (count.just_outside > 0) plan_.remarks.push_back(near_miss(count));
+    for (const StiffBody& body : simulation.stiff_bodies()) plan_.remarks.push_back(to_string(body));
     if (const std::string direction = direction_in_words(scene, problem.mesh); !direction.empty())
       plan_.remarks.push_back(direction);
   }
@@ -87,19 +92,8 @@ class Planner {
   }
   void leave_out(std::string what, std::string why) { plan_.left_out.push_back({std::move(what), std::move(why)}); }
 
-  void selections() {
-    plan_.selections = count_selections(scene_, problem_.mesh);
-    for (std::size_t k = 0; k < scene_.events.size(); ++k)
-      if (std::holds_alternative<Dissociate>(scene_.events[k].action))
-        plan_.selections.push_back(count_cut(scene_.events[k], problem_.mesh,
-                                             static_cast<std::size_t>(plan_.events[k].operations),
-                                             plan_.counts.cells_of_facet.size()));
-    for (const SelectionCount& count : plan_.selections)
-      if (count.just_outside > 0) plan_.remarks.push_back(near_miss(count));
-  }
-
   void map() {
-    const MeshTally& n = plan_.counts;
+    const CellCounts& n = plan_.counts;
     const Storage storage = plan_.needs.body.storage;
     const bool tetrahedra = storage == Storage::tetrahedra;
     const auto first = std::ranges::find_if(scene_.events, changes_topology, &SceneEvent::action);
@@ -108,7 +102,7 @@ class Planner {
                              : storage == Storage::surface ? "a surface"
                              : storage == Storage::several ? "bodies of several dimensions"
                                                            : "cells other than tetrahedra";
-    add(Part::map, fmt::format("{}, {} darts", map_name(storage), n.darts),
+    add(Part::map, fmt::format("{}, {} darts", map_name(storage), plan_.darts),
         fmt::format("{}; {}: {}", changed, source_of(scene_), kind));
     add(Part::marks, "marks by dart, for walks", changed);
     add(Part::embeddings, "the number of its cells at every dart, or its place in a tetrahedron", changed);
@@ -130,7 +124,7 @@ class Planner {
   }
 
   void columns() {
-    const MeshTally& n = plan_.counts;
+    const CellCounts& n = plan_.counts;
     const std::vector<std::uint32_t> order = order_along_curve(problem_.mesh);
     add(Part::vertices,
         fmt::format("mass, 1/mass, position, velocity and mesh point by vertex{}",
@@ -173,10 +167,10 @@ class Planner {
     }
     // driven vertices are looked up as in the run, by the points of the mesh
     DrivenVertices vertices(scene_, problem_.mesh.points);
-    SystemArrays arrays(problem_, plan_.needs.body);
-    vertices.apply(0.0, scene_.step, arrays.body().vertices().point, arrays.v);
+    std::vector<Eigen::Vector3d> x = body_.vertices().position, v = body_.vertices().velocity;
+    vertices.apply(0.0, scene_.step, body_.vertices().point, v);
     DivergenceDetector detector;
-    detector.start(arrays.system(), arrays.motion(), scene_.step);
+    detector.start(body_.system(), {x, v}, scene_.step);
     add(Part::driven,
         fmt::format("paths of {} vertices, and {} springs whose work is summed", vertices.size(),
                     detector.driven_springs()),
@@ -184,7 +178,7 @@ class Planner {
   }
 
   void forces() {
-    const MeshTally& n = plan_.counts;
+    const CellCounts& n = plan_.counts;
     const CellMaterials materials = problem_.cell_materials();
     const bool elements = materials.has_elements();
     const bool surface = plan_.needs.body.storage == Storage::surface;
@@ -245,7 +239,7 @@ class Planner {
   }
 
   void springs_beside_edges() {
-    const MeshTally& n = plan_.counts;
+    const CellCounts& n = plan_.counts;
     const CellMaterials materials = problem_.cell_materials();
     if (scene_.diagonals != Diagonals::none) {
       std::size_t springs = 0;
@@ -281,9 +275,8 @@ class Planner {
       leave_out("contact of bodies with obstacles and with each other", "/contact: not given");
       return;
     }
-    const SystemArrays arrays(problem_, plan_.needs.body);
-    const ObstacleContact* obstacles = arrays.body().contact();
-    const BodyContact* bodies = arrays.body().body_contact();
+    const ObstacleContact* obstacles = body_.contact();
+    const BodyContact* bodies = body_.body_contact();
     const std::size_t places = (obstacles != nullptr ? obstacles->samples() : bodies->samples()).size();
     ContactPlan plan{.obstacles = forecast_contacts(scene_, problem_), .touches = forecast_touches(scene_, problem_)};
     std::string against, why;
@@ -309,9 +302,9 @@ class Planner {
     if (bodies == nullptr) leave_out("contact of bodies with each other and themselves", "/contact/bodies: none");
     plan.share = std::max(largest_share(plan.obstacles), largest_share(plan.touches));
     // the body without contacts, which may exist at the start
-    SpringSystem alone = arrays.system();
-    alone.terms = arrays.body().terms_but_contact(alone.terms);
-    const StableStep limits = StableStepEstimate().refresh(alone, arrays.x);
+    SpringSystem alone = body_.system();
+    alone.terms = body_.terms_but_contact(alone.terms);
+    const StableStep limits = StableStepEstimate().refresh(alone, body_.vertices().position);
     const Scheme& scheme = make_integrator(scene_.integrator)->scheme();
     const Horizon horizon = horizon_of(scene_.duration);
     plan.body_rate = limits.upper;
@@ -437,8 +430,17 @@ class Planner {
 
   const SceneFile& scene_;
   const Problem& problem_;
+  const SimulatedBody& body_;
   ScenePlan plan_;
 };
+
+/// A step that has something to solve, if the integrator solves: the first from rest may have nothing.
+void take_step(Simulation& simulation, const SceneFile& scene) {
+  const bool solves = make_integrator(scene.integrator)->scheme().implicit;
+  constexpr int most_steps = 32;
+  for (int k = 0; k < most_steps && !simulation.advance(); ++k)
+    if (!solves || simulation.work().solves > 0) break;
+}
 
 }  // namespace
 
@@ -449,6 +451,43 @@ std::size_t ScenePlan::bytes() const {
   return sum;
 }
 
-ScenePlan plan_scene(const SceneFile& scene, const Problem& problem) { return Planner(scene, problem).plan(); }
+ScenePlan plan_scene(const SceneFile& scene) {
+  Simulation simulation(with_events_held_back(scene));
+  ScenePlan plan = Planner(scene, make_problem(scene), simulation).plan();
+  take_step(simulation, scene);
+  add_bytes(plan, simulation.memory());
+  return plan;
+}
+
+SceneFile with_events_held_back(SceneFile scene) {
+  for (SceneEvent& event : scene.events) {
+    if (auto* stress = std::get_if<TearWhereStressed>(&event.action)) {
+      stress->threshold = std::numeric_limits<double>::max();
+      event.from = 0.0;
+    } else {
+      event.from = event.until = scene.duration + 1e3 * scene.step;
+      event.every.reset();
+    }
+  }
+  return scene;
+}
+
+MemoryReport measured_memory(const SceneFile& scene) {
+  Simulation simulation(with_events_held_back(scene));
+  take_step(simulation, scene);
+  return simulation.memory();
+}
+
+void add_bytes(ScenePlan& plan, const MemoryReport& found) {
+  for (const MemoryItem& memory : found) {
+    const auto item = std::ranges::find_if(plan.items, [&memory](const PlanItem& planned) {
+      return planned.part == memory.part && planned.event == memory.event;
+    });
+    if (item != plan.items.end())
+      item->bytes += memory.bytes;
+    else if (memory.bytes > 0)
+      plan.unplanned.push_back(memory);
+  }
+}
 
 }  // namespace dartboard

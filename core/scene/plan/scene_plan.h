@@ -1,17 +1,16 @@
 #pragma once
-// The plan of a scene before anything runs: what will be built, which key requires it, its bytes, and what no key
-// requires.
+// The plan of a scene before it runs: what is built, which key requires it, its bytes, and what no key requires.
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/scene/body/contact_forecast.h"
+#include "core/scene/body/diagnostics.h"
 #include "core/scene/body/memory.h"
 #include "core/scene/body/needs.h"
-#include "core/scene/plan/mesh_tally.h"
-#include "core/scene/plan/system_arrays.h"
 #include "core/scene/survey/selection_counts.h"
 
 namespace dartboard {
@@ -51,7 +50,8 @@ struct ContactPlan {
 struct ScenePlan {
   std::string map;  // "tetrahedral 3-g-map"; "no map"
   Needs needs;
-  MeshTally counts;
+  CellCounts counts;  // at the start
+  std::size_t darts = 0;
   std::uint64_t steps = 0;
   std::vector<EventForecast> events;
   std::optional<ContactPlan> contact;
@@ -64,10 +64,25 @@ struct ScenePlan {
   std::size_t bytes() const;
 };
 
-/// Everything but the bytes (measured_plan.h).
+/// Asked of a simulation of the scene that is built, and takes a step that has something to solve.
 ///
-/// throws  InputError as make_problem does
-/// cost    a pass over the mesh; with driven vertices a body is built
-ScenePlan plan_scene(const SceneFile& scene, const Problem& problem);
+/// throws  InputError as Simulation does
+ScenePlan plan_scene(const SceneFile& scene);
+
+/// The times and effects of events, by what they select.
+std::vector<EventForecast> forecast_events(const SceneFile& scene, std::span<const SelectionCount> selections,
+                                           std::size_t cells);
+
+/// The scene with its events postponed beyond its end: all that it needs is built, and nothing happens. Stress is
+/// computed and tears nothing.
+SceneFile with_events_held_back(SceneFile scene);
+
+/// The bytes of every part of such a simulation after that step.
+///
+/// throws  InputError as Simulation does
+MemoryReport measured_memory(const SceneFile& scene);
+
+/// Write the bytes found into the items of a plan, and those of parts without an item into `unplanned`.
+void add_bytes(ScenePlan& plan, const MemoryReport& found);
 
 }  // namespace dartboard

@@ -13,7 +13,7 @@
 #include "benchmarks/studies/scenes/plain_loop.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/scene/body/simulated_body.h"
-#include "core/scene/plan/measured_plan.h"
+#include "core/scene/plan/scene_plan.h"
 #include "core/time/integrators.h"
 
 namespace dartboard::ablation_study_test {

@@ -29,7 +29,7 @@ ScenePlan plan() {
   p.counts.edges = 12;
   p.counts.faces = 13;
   p.counts.cells = 14;
-  p.counts.darts = 15;
+  p.darts = 15;
   p.steps = 16;
   p.items = {{.part = Part::map, .what = "alphas", .why = "/events", .bytes = 100},
              {.part = Part::marks, .what = "stamps", .why = "/output", .bytes = 20}};

@@ -6,8 +6,7 @@
 
 #include "core/plain/error.h"
 #include "core/scene/file/scene_problem.h"
-#include "core/scene/plan/event_forecast.h"
-#include "core/scene/plan/mesh_tally.h"
+#include "core/scene/plan/scene_plan.h"
 #include "tests/support/moving_box.h"
 
 namespace dartboard::bounded_cut_test {
@@ -67,11 +66,7 @@ TEST(BoundedCut, FollowsTheBodyToWhereItIs) {
   EXPECT_EQ(simulation.operations(), 0u);
 }
 
-TEST(BoundedCut, IsForeseenAsItWillBe) {
-  const SceneFile scene = parse(cut(lower_half));
-  const Mesh mesh = make_mesh(scene);
-  EXPECT_EQ(forecast_events(scene, mesh, tally_of(mesh)).at(0).operations, 4.0);
-}
+TEST(BoundedCut, IsForeseenAsItWillBe) { EXPECT_EQ(plan_scene(parse(cut(lower_half))).events.at(0).operations, 4.0); }
 
 TEST(BoundedCut, OfFacesGivenByTheirPointsIsRefused) {
   Json json = cut(lower_half);

@@ -11,7 +11,7 @@
 
 #include "core/scene/body/attached_points.h"
 #include "core/scene/file/scene_problem.h"
-#include "core/scene/plan/measured_plan.h"
+#include "core/scene/plan/scene_plan.h"
 #include "core/scene/run/scene_verdict.h"
 #include "core/time/watch/stable_step.h"
 #include "tests/support/moving_box.h"
@@ -376,8 +376,7 @@ TEST(SceneAttachments, ArePlannedToTheByte) {
   for (const Json& json : {chain, both, two_boxes(), hung_box(), with(hung_box(), "events", events)}) {
     const SceneFile file = parse(json);
     const Problem problem = make_problem(file);
-    ScenePlan plan = plan_scene(file, problem);
-    add_bytes(plan, measured_memory(file));
+    ScenePlan plan = plan_scene(file);
     EXPECT_TRUE(plan.unplanned.empty());
     const auto item = std::ranges::find(plan.items, Part::attachments, &PlanItem::part);
     ASSERT_NE(item, plan.items.end());
@@ -387,7 +386,7 @@ TEST(SceneAttachments, ArePlannedToTheByte) {
     EXPECT_EQ(item->why, "/attachments/0/stiffness: 500; /attachments/1/stiffness: 3");
   }
   const SceneFile without = parse(moving_box());
-  for (const PlanItem& item : plan_scene(without, make_problem(without)).items) EXPECT_NE(item.part, Part::attachments);
+  for (const PlanItem& item : plan_scene(without).items) EXPECT_NE(item.part, Part::attachments);
 }
 
 // A mean over what is connected by cells, though springs pull at other parts.

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "core/scene/file/scene_problem.h"
-#include "core/scene/plan/measured_plan.h"
+#include "core/scene/plan/scene_plan.h"
 #include "core/time/system/energy.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/run_in_memory.h"
@@ -324,8 +324,7 @@ TEST(BodiesOfDimensions, AreExplainedWithAllTheirMemory) {
       scene["events"] =
           Json::parse(R"([{"at": 0.01, "dissociate": {"plane": {"point": [0, 3.1, 0], "normal": [0, 1, 0]}}}])");
     const SceneFile parsed = parse(scene);
-    ScenePlan plan = plan_scene(parsed, make_problem(parsed));
-    add_bytes(plan, measured_memory(parsed));
+    ScenePlan plan = plan_scene(parsed);
     for (const MemoryItem& item : plan.unplanned) ADD_FAILURE() << "not planned: " << name(item.part);
     EXPECT_EQ(plan.counts.vertices, 27u + 7u + 27u + 16u);
     EXPECT_EQ(plan.counts.components, 4u);

@@ -10,7 +10,6 @@
 
 #include "core/scene/body/contact_forecast.h"
 #include "core/scene/file/scene_problem.h"
-#include "core/scene/plan/measured_plan.h"
 #include "core/scene/plan/scene_plan.h"
 #include "core/scene/run/scene_warnings.h"
 #include "core/time/integrators.h"
@@ -404,7 +403,7 @@ TEST(ContactScene, ExplainsTheLongestStepAtTheDepthOfTheImpact) {
   scene["contact"]["pressure"] = 2e6;
   scene["duration"] = 0.2;
   const SceneFile file = parse(scene);
-  const ScenePlan plan = plan_scene(file, make_problem(file));
+  const ScenePlan plan = plan_scene(file);
   ASSERT_TRUE(plan.contact);
   EXPECT_GT(plan.contact->contact_rate, plan.contact->body_rate);
   EXPECT_LT(plan.contact->stable_step, plan.contact->body_step);
@@ -420,8 +419,7 @@ TEST(ContactScene, IsPlannedToTheByteAndLeftOutWhereNoKeyAsksForIt) {
     if (changes) scene = with_events(scene, R"([{"at": 0.01, "remove": {"ids": [0]}}])");
     const SceneFile file = parse(scene);
     const Problem problem = make_problem(file);
-    ScenePlan plan = plan_scene(file, problem);
-    add_bytes(plan, measured_memory(file));
+    ScenePlan plan = plan_scene(file);
     EXPECT_TRUE(plan.unplanned.empty()) << name(plan.unplanned.front().part);
     const auto item = std::ranges::find(plan.items, Part::contact, &PlanItem::part);
     ASSERT_NE(item, plan.items.end());
@@ -430,7 +428,7 @@ TEST(ContactScene, IsPlannedToTheByteAndLeftOutWhereNoKeyAsksForIt) {
     EXPECT_EQ(item->bytes, memory::predicted_bytes(file, problem, plan, *item));
     scene.erase("contact");
     const SceneFile without = parse(scene);
-    const ScenePlan other = plan_scene(without, make_problem(without));
+    const ScenePlan other = plan_scene(without);
     EXPECT_FALSE(other.contact);
     EXPECT_TRUE(std::ranges::none_of(other.items, [](const PlanItem& i) { return i.part == Part::contact; }));
     EXPECT_TRUE(std::ranges::any_of(other.left_out, [](const LeftOut& l) { return l.why == "/contact: not given"; }));

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/scene/file/scene_problem.h"
-#include "core/scene/plan/measured_plan.h"
 #include "core/scene/plan/scene_plan.h"
 #include "core/scene/run/scene_warnings.h"
 #include "core/time/integrators.h"
@@ -153,7 +152,7 @@ TEST(ElementScene, DampsEveryRegionAsItsMaterialSays) {
 TEST(ElementScene, IsToldToBeDampedOrNot) {
   const auto plan = [](const Json& json) {
     const SceneFile scene = parse(json);
-    return plan_scene(scene, make_problem(scene));
+    return plan_scene(scene);
   };
   const ScenePlan with = plan(damped(of_elements(), 0.05, 2.0)), without = plan(of_elements()),
                   springs = plan(moving_box());
@@ -267,8 +266,7 @@ TEST(ElementScene, IsPlannedToTheByte) {
           if (is_damped) json = damped(json);
           const SceneFile scene = parse(json);
           const Problem problem = make_problem(scene);
-          ScenePlan plan = plan_scene(scene, problem);
-          add_bytes(plan, measured_memory(scene));
+          ScenePlan plan = plan_scene(scene);
           bool has_elements = false;
           for (const PlanItem& item : plan.items) {
             has_elements = has_elements || item.part == Part::elements;

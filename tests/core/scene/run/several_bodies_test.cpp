@@ -8,7 +8,7 @@
 
 #include "core/scene/file/load_mesh.h"
 #include "core/scene/file/scene_problem.h"
-#include "core/scene/plan/measured_plan.h"
+#include "core/scene/plan/scene_plan.h"
 #include "core/scene/run/scene_warnings.h"
 #include "core/time/system/energy.h"
 #include "tests/support/bodies/corner_body.h"

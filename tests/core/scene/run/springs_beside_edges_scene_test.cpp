@@ -7,7 +7,6 @@
 
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/file/springs_beside_edges.h"
-#include "core/scene/plan/measured_plan.h"
 #include "core/scene/plan/scene_plan.h"
 #include "core/scene/run/scene_warnings.h"
 #include "core/time/integrators.h"
@@ -245,8 +244,7 @@ TEST(SpringsBesideEdges, ArePlannedToTheByte) {
          {block("hexahedra"), block("mixed", "all"), sheet("triangles", rigid), sheet("quadrilaterals", sprung)}) {
       const SceneFile scene = parse(with_events(json, events));
       const Problem problem = make_problem(scene);
-      ScenePlan plan = plan_scene(scene, problem);
-      add_bytes(plan, measured_memory(scene));
+      ScenePlan plan = plan_scene(scene);
       int found = 0;
       for (const PlanItem& item : plan.items)
         if (item.part == Part::cell_springs || item.part == Part::bending || item.part == Part::rest ||

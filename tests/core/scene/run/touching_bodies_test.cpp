@@ -9,7 +9,7 @@
 
 #include "core/scene/body/contact_forecast.h"
 #include "core/scene/file/scene_problem.h"
-#include "core/scene/plan/measured_plan.h"
+#include "core/scene/plan/scene_plan.h"
 #include "core/scene/run/scene_warnings.h"
 #include "core/time/system/energy.h"
 #include "tests/support/moving_box.h"
@@ -471,7 +471,7 @@ TEST(TouchForecast, CountsBothSpeedsAndTheFallOfWhatIsCut) {
 
 TEST(TouchingBodies, AreInThePlanWithWhatTheyCostAndTheStepTheyAllow) {
   const SceneFile file = parse(small_on_large());
-  const ScenePlan plan = plan_scene(file, make_problem(file));
+  const ScenePlan plan = plan_scene(file);
   const auto item = std::ranges::find(plan.items, Part::contact, &PlanItem::part);
   ASSERT_NE(item, plan.items.end());
   // 26 vertices and 48 faces of each; all 48 tetrahedra of each have a corner on the boundary

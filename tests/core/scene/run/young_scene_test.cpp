@@ -8,7 +8,6 @@
 #include "core/base/young.h"
 #include "core/plain/error.h"
 #include "core/scene/file/scene_problem.h"
-#include "core/scene/plan/measured_plan.h"
 #include "core/scene/plan/scene_plan.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/plan_memory.h"
@@ -59,8 +58,7 @@ TEST(YoungsModulus, IsPlannedToTheByte) {
       if (generate == a_chain && events == a_removal) continue;
       const SceneFile scene = parse(with_events(elastic(generate), events));
       const Problem problem = make_problem(scene);
-      ScenePlan plan = plan_scene(scene, problem);
-      add_bytes(plan, measured_memory(scene));
+      ScenePlan plan = plan_scene(scene);
       for (const PlanItem& item : plan.items) {
         EXPECT_EQ(item.bytes, memory::predicted_bytes(scene, problem, plan, item)) << generate << name(item.part);
         if (item.part == Part::springs) {

@@ -123,7 +123,7 @@ TEST(SelectionCounts, NameTheFacesThatBoundsOfEveryShapeMiss) {
 TEST(SelectionCounts, OfCutsAreThoseOfThePlanAndTheRunAlike) {
   const Json json = with_bounded_cut(R"({"box": {"min": [0, 0.0666666740, 0], "max": [1, 1, 1]}})");
   const SceneFile scene = parse(json);
-  const SelectionCount planned = plan_scene(scene, make_problem(scene)).selections.back(), run = of_cut(json);
+  const SelectionCount planned = plan_scene(scene).selections.back(), run = of_cut(json);
   EXPECT_EQ(to_string(planned), to_string(run));
   EXPECT_EQ(near_miss(planned), near_miss(run));
   EXPECT_EQ(planned.just_outside, 1u);

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "core/scene/file/scene_problem.h"
-#include "core/scene/plan/measured_plan.h"
 #include "core/scene/plan/scene_plan.h"
 #include "core/time/integrators.h"
 #include "core/time/system/energy.h"
@@ -274,8 +273,7 @@ TEST(AppliedForces, ArePlannedToTheByteAndLeftOutWhereNoKeyAsksForThem) {
   scene["forces"].push_back(with_key("pressure", 5));
   const auto plan_of = [](const Json& json) {
     const SceneFile file = parse(json);
-    ScenePlan plan = plan_scene(file, make_problem(file));
-    add_bytes(plan, measured_memory(file));
+    ScenePlan plan = plan_scene(file);
     return plan;
   };
   const ScenePlan with = plan_of(scene), without = plan_of(moving_box());
