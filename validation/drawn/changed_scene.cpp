@@ -56,6 +56,17 @@ void for_each_body(Json& scene, F&& f) {
     for (Json& body : scene["bodies"]) f(body);
 }
 
+/// Of attachments, and of pairs that touch.
+template <class F>
+void for_each_number_of_a_body(Json& scene, F&& f) {
+  if (scene.contains("attachments"))
+    for (Json& one : scene["attachments"])
+      if (one.contains("to")) f(one["to"]);
+  if (scene.contains("contact") && scene["contact"].contains("pairs"))
+    for (Json& pair : scene["contact"]["pairs"])
+      for (Json& body : pair["of"]) f(body);
+}
+
 }  // namespace
 
 Json in_units(Json scene, const Dimensions& powers, std::optional<int> dimension) {
@@ -175,17 +186,11 @@ std::optional<LongerScene> with_body_far_away(Json scene, double size, double ma
                    {"material", material},
                    {"initial_velocity", {0, 0, 0}}};
   bodies.insert(bodies.begin(), other);
-  const auto is_next = [](Json& body) { body = body.get<std::size_t>() + 1; };
-  if (scene.contains("attachments"))
-    for (Json& one : scene["attachments"])
-      if (one.contains("to")) is_next(one["to"]);
+  for_each_number_of_a_body(scene, [](Json& body) { body = body.get<std::size_t>() + 1; });
   if (scene.contains("contact")) {
     Json& contact = scene["contact"];
     Json law{{"friction", 0.9}, {"restitution", 0.3}};
     if (contact.contains("pressure")) law["pressure"] = 8.0 * contact["pressure"].get<double>();
-    if (contact.contains("pairs"))
-      for (Json& pair : contact["pairs"])
-        for (Json& body : pair["of"]) is_next(body);
     Json pair = law;
     pair["of"] = {0, 0};
     pair["touch"] = dimension == 3 ? "yes" : "no";
@@ -215,13 +220,8 @@ Json with_opposite_order(Json scene) {
     if (event.contains("at")) times.insert(event["at"].get<double>());
   if (!times.empty() && times.size() == scene["events"].size()) reverse(scene, "events");
   if (!scene.contains("bodies")) return scene;
-  const auto renumber = [last = scene["bodies"].size() - 1](Json& body) { body = last - body.get<std::size_t>(); };
-  if (scene.contains("attachments"))
-    for (Json& one : scene["attachments"])
-      if (one.contains("to")) renumber(one["to"]);
-  if (scene.contains("contact") && scene["contact"].contains("pairs"))
-    for (Json& pair : scene["contact"]["pairs"])
-      for (Json& body : pair["of"]) renumber(body);
+  const std::size_t last = scene["bodies"].size() - 1;
+  for_each_number_of_a_body(scene, [last](Json& body) { body = last - body.get<std::size_t>(); });
   return scene;
 }
 
@@ -273,7 +273,10 @@ std::optional<Json> in_pieces(Json scene, double time) {
 
 Json with_events_at_steps(Json scene) {
   const double step = scene["step"].get<double>();
-  for (Json& event : scene["events"]) event["at"] = std::ceil(event["at"].get<double>() / step) * step;
+  Json& events = scene["events"];
+  std::stable_sort(events.begin(), events.end(),
+                   [](const Json& a, const Json& b) { return a["at"].get<double>() < b["at"].get<double>(); });
+  for (Json& event : events) event["at"] = std::ceil(event["at"].get<double>() / step) * step;
   return scene;
 }
 

@@ -14,6 +14,17 @@ namespace {
 
 constexpr std::size_t most_values = 512;
 
+using Numbers = std::map<std::string, std::size_t>;
+
+/// Of each value, in order; one that is new gets the next one.
+std::vector<std::size_t> numbers_of(const std::set<std::string>& values, Numbers& known) {
+  std::vector<std::size_t> numbers;
+  for (const std::string& value : values) numbers.push_back(known.try_emplace(value, known.size()).first->second);
+  if (known.size() > most_values) throw InputError(fmt::format("there are more than {} values", most_values));
+  std::ranges::sort(numbers);
+  return numbers;
+}
+
 }  // namespace
 
 std::set<std::string> values_of(const nlohmann::ordered_json& scene) {
@@ -34,10 +45,7 @@ std::set<std::string> values_of(const nlohmann::ordered_json& scene) {
 std::size_t MetValues::add(const std::set<std::string>& values) {
   has_pair_.resize(most_values * most_values);
   has_triple_.resize(most_values * most_values * most_values);
-  std::vector<std::size_t> numbers;
-  for (const std::string& value : values) numbers.push_back(number_.try_emplace(value, number_.size()).first->second);
-  if (number_.size() > most_values) throw InputError(fmt::format("there are more than {} values", most_values));
-  std::ranges::sort(numbers);
+  const std::vector<std::size_t> numbers = numbers_of(values, number_);
   const auto meet = [](std::vector<bool>& has, std::size_t at, std::size_t& count) {
     if (has[at]) return;
     has[at] = true;
@@ -54,15 +62,13 @@ std::size_t MetValues::add(const std::set<std::string>& values) {
 }
 
 std::vector<std::size_t> covering(const std::vector<std::set<std::string>>& scenes) {
-  std::map<std::string, std::size_t> number;
+  Numbers known;
   std::vector<std::vector<std::size_t>> pairs;  // of each scene
   for (const auto& values : scenes) {
-    std::vector<std::size_t> numbers;
-    for (const std::string& value : values) numbers.push_back(number.try_emplace(value, number.size()).first->second);
+    const std::vector<std::size_t> numbers = numbers_of(values, known);
     auto& own = pairs.emplace_back();
-    for (const std::size_t a : numbers)
-      for (const std::size_t b : numbers)
-        if (b < a) own.push_back(a * most_values + b);
+    for (std::size_t a = 0; a < numbers.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b) own.push_back(numbers[a] * most_values + numbers[b]);
   }
   std::vector<bool> is_met(most_values * most_values, false);
   // the most that a scene may add, as it was when it was looked at last: of equals the first one is above

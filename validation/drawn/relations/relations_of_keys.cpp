@@ -175,7 +175,8 @@ RelationFound judge_strains(const JudgedScene& s) {
   return any ? RelationFound{} : does_not_apply("it has no links or springs");
 }
 
-/// [J] The most that restitution and friction have given between two times, beyond a share of the largest energy.
+/// [J] The most that restitution or friction has given between two times, beyond a hundredth of the largest energy, or
+/// in all, beyond 1e-5 of it.
 double given_by_losses(const DrawnMotion& motion) {
   double before[] = {0.0, 0.0}, largest = 0.0, given = 0.0;
   for (const Instant& now : instants_of(motion)) {
@@ -188,7 +189,8 @@ double given_by_losses(const DrawnMotion& motion) {
     }
   }
   // what holds a place still until the end of a step may push it back within it
-  return std::max(0.0, given - 1e-2 * largest);
+  const double in_all = std::max(-before[0], -before[1]);
+  return std::max({0.0, given - 1e-2 * largest, in_all - 1e-5 * largest});
 }
 
 RelationFound judge_losses(const JudgedScene& s) {
@@ -197,10 +199,9 @@ RelationFound judge_losses(const JudgedScene& s) {
   if (given == 0.0) return {};
   if (!s.file().events.empty()) return does_not_apply("its steps are long for its contacts");
   // the way of a long step is not the one that friction was found for
-  const double later = given_by_losses(s.in_shorter_steps(4));
-  if (later <= 0.6 * given) return {};
-  return breaks(
-      fmt::format("friction and restitution give {:.3g} J, and {:.3g} J in steps a quarter as long", given, later));
+  for (const int parts : {4, 16})
+    if (given_by_losses(s.in_shorter_steps(parts)) <= 0.6 * given) return {};
+  return breaks(fmt::format("friction and restitution give {:.3g} J, and as much in shorter steps", given));
 }
 
 }  // namespace
@@ -213,7 +214,8 @@ std::vector<Relation> relations_of_keys() {
        "1e-11 of the size", judge_obstacles},
       {"strains", "links and springs are as long as their strains say", "1e-11 of the size", judge_strains},
       {"losses", "restitution and friction take energy, and give none",
-       "1e-2 of the largest energy, or 0.6 of what they give in steps four times as long", judge_losses},
+       "1e-2 of the largest energy between two times, 1e-5 in all, or 0.6 of that in steps of 1/4 or 1/16",
+       judge_losses},
   };
 }
 

@@ -47,7 +47,7 @@ TEST_P(DrawnRelations, Hold) {
 // Where pairs of keys are rare, relations that cost one run of the scene, or none.
 TEST_P(DrawnRelations, OfStoppedRunsAndTurnedAxesHoldForRarePairs) {
   for (std::size_t k = judged_by_all + static_cast<std::size_t>(GetParam()); k < covering_scenes.size(); k += shards)
-    expect_hold(covering_scenes[k], {"continued", "axes", "held", "obstacles", "strains"});
+    expect_hold(covering_scenes[k], {"continued", "axes", "held", "losses", "obstacles", "strains"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, DrawnRelations, testing::Range(0, shards));
@@ -160,6 +160,19 @@ TEST(Relations, LeaveOpenWhatRoundingDecides) {
   Json other = falling_sheet();
   other.erase("events");
   EXPECT_FALSE(allowances(one, motion_of(other), {.length = 0.3, .time = 0.001, .mass = 0.06}));
+}
+
+/// Breaks where the body is exactly at its place.
+RelationFound breaks_in_place(const JudgedScene& scene) {
+  return scene.json()["body"].contains("translate") ? RelationFound{} : RelationFound{RelationOutcome::breaks, "there"};
+}
+
+TEST(Relations, OfRoundingDoNotBreakWhereTheyHoldNearby) {
+  const JudgedScene scene(falling_sheet(), "", "");
+  const Relation of_rounding{"x", "", "rounding; or more", breaks_in_place},
+      of_bits{"x", "", "same bits", breaks_in_place};
+  EXPECT_EQ(try_relation(scene, of_rounding).outcome, RelationOutcome::does_not_apply);
+  EXPECT_EQ(try_relation(scene, of_bits).outcome, RelationOutcome::breaks);
 }
 
 TEST(Relations, CompareWithAnotherBodyOnlyWhatBothHave) {
