@@ -11,7 +11,6 @@
 #include <tuple>
 
 #include "core/base/bytes.h"
-#include "core/base/lanes.h"
 #include "core/contact/way_out.h"
 #include "core/forces/compensated_sum.h"
 #include "core/places/nearest_on_triangle.h"
@@ -75,7 +74,6 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, const N
   const SkinSample& sample = samples_[s];
   const PlaceNow place{at};
   const Vector3d y = mean_of(sample, place);
-  const bool in_lanes = lanes_are_on();
   const bool may_be_covered = ways_->may_be_covered();
   auto& within = ways_->within();
   std::array<double, 4> weights{};
@@ -87,12 +85,8 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, const N
       return std::ranges::find_first_of(tetrahedron.nodes, nodes) != tetrahedron.nodes.end();
     });
   };
-  for (std::size_t k = 0; k < tetrahedra.size() && count < WaysOut::most_within; ++k) {
-    // few that are left are looked at as quickly one by one
-    if (in_lanes && tetrahedra.size() - k > 2)
-      k = skip_outside({solids_.tetrahedra().data(), tetrahedra}, k, at, y, inverted_);
-    if (k == tetrahedra.size()) break;
-    const std::uint32_t t = tetrahedra[k];
+  for (const std::uint32_t t : tetrahedra) {
+    if (count == WaysOut::most_within) break;
     const SkinTetrahedron& tetrahedron = solids_.tetrahedra()[t];
     const Side side = side_of(tetrahedron, y, place, weights);
     if (side == Side::inverted) ++inverted_;

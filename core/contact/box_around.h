@@ -18,11 +18,9 @@ struct BoxAround {
   double diagonal() const { return (high - low).norm(); }
 };
 
-/// cost  a third of a nanosecond per place in the cache: four are compared at a time
 BoxAround box_around(std::span<const Eigen::Vector3d> x);
 
 /// Widens a box of ways by those from `from` to the places of as many vertices, of which the first is `first`.
-/// cost  as box_around for each column that is read
 void add_ways(BoxAround& box, std::span<const Eigen::Vector3d> from, const StagePlaces& to, std::size_t first);
 
 }  // namespace dartboard

@@ -1,111 +1,16 @@
 #include "core/contact/way_out.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <tuple>
 
 #include "core/base/bytes.h"
-#include "core/base/four.h"
-#include "core/base/lanes.h"
 #include "core/places/nearest_on_triangle.h"
 
 namespace dartboard {
 
 using Eigen::Vector3d;
-
-#ifdef DARTBOARD_HAS_AVX2
-namespace {
-
-using FourTetrahedra = const SkinTetrahedron* [4];
-using FourTriangles = const SkinTriangle* [4];
-
-template <class Cells>
-DARTBOARD_AVX2_INLINE FourVectors rows_at(const Vector3d* column, const Cells& t, std::size_t corner) {
-  const double* const row = column->data();
-  return vectors_at(row + std::size_t{3} * t[0]->nodes[corner], row + std::size_t{3} * t[1]->nodes[corner],
-                    row + std::size_t{3} * t[2]->nodes[corner], row + std::size_t{3} * t[3]->nodes[corner]);
-}
-/// As StagePlaces::place.
-template <class Cells>
-DARTBOARD_AVX2_INLINE FourVectors places_at(const StagePlaces& at, const Cells& t, std::size_t corner) {
-  const FourVectors x = rows_at(at.x.data(), t, corner);
-  return at.w.empty() ? x : x + four(at.t) * rows_at(at.w.data(), t, corner);
-}
-
-DARTBOARD_AVX2_INLINE Four is_less(Four a, Four b) { return _mm256_cmp_pd(a, b, _CMP_LT_OQ); }
-
-DARTBOARD_AVX2 std::size_t skip(const TetrahedraToTest& tetrahedra, std::size_t first, const StagePlaces& at,
-                                const Eigen::Vector3d& place, std::size_t& inverted) {
-  const std::uint32_t* const number = tetrahedra.numbers.data();
-  const std::size_t count = tetrahedra.numbers.size();
-  const FourVectors y{four(place.x()), four(place.y()), four(place.z())};
-  const Four zero = four(0.0);
-  for (std::size_t k = first; k < count; k += 4) {
-    FourTetrahedra t;  // the last one again, where less are left
-    for (std::size_t lane = 0; lane < 4; ++lane) t[lane] = tetrahedra.all + number[std::min(k + lane, count - 1)];
-    const FourVectors p = places_at(at, t, 0), a = places_at(at, t, 1) - p, b = places_at(at, t, 2) - p,
-                      c = places_at(at, t, 3) - p, r = y - p, normal = cross(b, c);
-    const Four volume = dot(a, normal), least = four(-2.0 * seam_of_sides) * volume;
-    const Four part1 = dot(r, normal), part2 = dot(r, cross(c, a)), part3 = dot(r, cross(a, b));
-    const Four beyond_first = _mm256_cmp_pd(part1 + part2 + part3, four(beyond_the_first) * volume, _CMP_GT_OQ);
-    const Four outside = _mm256_or_pd(_mm256_or_pd(is_less(part1, least), is_less(part2, least)),
-                                      _mm256_or_pd(is_less(part3, least), beyond_first));
-    const auto right = static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(volume, zero, _CMP_GT_OQ)));
-    const unsigned wrong = ~right & 15u;
-    const unsigned skipped = wrong | static_cast<unsigned>(_mm256_movemask_pd(outside));
-    const std::size_t lane = std::min<std::size_t>(static_cast<std::size_t>(std::countr_one(skipped)), count - k);
-    inverted += static_cast<std::size_t>(std::popcount(wrong & ((1u << lane) - 1u)));
-    if (lane < 4) return k + lane;
-  }
-  return count;
-}
-
-/// The squared length of the way to the lines from p to q, as nearest_on_triangle computes it.
-DARTBOARD_AVX2_INLINE Four square_to_line(const FourVectors& p, const FourVectors& q) {
-  const Four zero = four(0.0), one = four(1.0);
-  const FourVectors side = q - p;
-  const Four square = dot(side, side), share = (four(-0.0) - dot(p, side)) / square;
-  const Four clamped = _mm256_blendv_pd(_mm256_blendv_pd(share, one, is_less(one, share)), zero, is_less(share, zero));
-  const Four t = _mm256_and_pd(clamped, is_less(zero, square));
-  const FourVectors way = p + t * side;
-  return _mm256_blendv_pd(dot(way, way), dot(q, q), _mm256_cmp_pd(t, one, _CMP_EQ_OQ));
-}
-
-/// The squared lengths of the ways from y to four triangles, as nearest_on_triangle computes them.
-DARTBOARD_AVX2 void squares_to(const FourTriangles& t, const StagePlaces& at, const Vector3d& place, double* squares) {
-  const Four zero = four(0.0);
-  const FourVectors y{four(place.x()), four(place.y()), four(place.z())};
-  const FourVectors a = places_at(at, t, 0) - y, b = places_at(at, t, 1) - y, c = places_at(at, t, 2) - y;
-  const FourVectors area = cross(b - a, c - a);
-  const Four square = dot(area, area);
-  const Four of_a = dot(cross(b, c), area), of_b = dot(cross(c, a), area), of_c = dot(cross(a, b), area);
-  const Four within = _mm256_and_pd(_mm256_and_pd(is_less(zero, square), is_less(zero, of_a)),
-                                    _mm256_and_pd(is_less(zero, of_b), is_less(zero, of_c)));
-  const FourVectors along_normal = (dot(a, area) / square) * area;
-  Four nearest = square_to_line(a, b);
-  const Four second = square_to_line(b, c), third = square_to_line(c, a);
-  nearest = _mm256_blendv_pd(nearest, second, is_less(second, nearest));
-  nearest = _mm256_blendv_pd(nearest, third, is_less(third, nearest));
-  _mm256_storeu_pd(squares, _mm256_blendv_pd(nearest, dot(along_normal, along_normal), within));
-}
-
-}  // namespace
-
-std::size_t skip_outside(const TetrahedraToTest& tetrahedra, std::size_t first, const StagePlaces& at,
-                         const Eigen::Vector3d& y, std::size_t& inverted) {
-  return skip(tetrahedra, first, at, y, inverted);
-}
-#else
-using FourTriangles = const SkinTriangle* [4];
-void squares_to(const FourTriangles&, const StagePlaces&, const Vector3d&, double*) {}
-
-std::size_t skip_outside(const TetrahedraToTest&, std::size_t first, const StagePlaces&, const Eigen::Vector3d&,
-                         std::size_t&) {
-  return first;
-}
-#endif
 
 namespace {
 
@@ -131,21 +36,11 @@ class NearestTriangles {
   };
 
   NearestTriangles(const std::vector<SkinTriangle>& triangles, const StagePlaces& at, const Vector3d& y)
-      : triangles_(triangles), at_(at), y_(y), in_lanes_(lanes_are_on()) {}
+      : triangles_(triangles), at_(at), y_(y) {}
 
-  /// Compare it, at the latest when `compare_waiting` is called.
   void compare(std::uint32_t k) {
-    if (!in_lanes_) {
-      compare_now(k);
-      return;
-    }
-    waiting_[waiting_count_++] = k;
-    if (waiting_count_ == waiting_.size()) compare_waiting();
-  }
-  void compare_waiting() {
-    if (waiting_count_ == 1) compare_now(waiting_[0]);
-    if (waiting_count_ > 1) compare_in_lanes();
-    waiting_count_ = 0;
+    const auto& n = triangles_[k].nodes;
+    rank(k, nearest_on_triangle(at_.place(n[0]) - y_, at_.place(n[1]) - y_, at_.place(n[2]) - y_).way.squaredNorm());
   }
   /// From the nearest on; of equal ones the lowest face and part is first. None is at a distance that is no number.
   std::span<const Ranked> ranked() const { return {ranked_.data(), count_}; }
@@ -153,17 +48,6 @@ class NearestTriangles {
   double others() const { return others_; }
 
  private:
-  void compare_now(std::uint32_t k) {
-    const auto& n = triangles_[k].nodes;
-    rank(k, nearest_on_triangle(at_.place(n[0]) - y_, at_.place(n[1]) - y_, at_.place(n[2]) - y_).way.squaredNorm());
-  }
-  void compare_in_lanes() {
-    FourTriangles t;  // the last one again, where less are left
-    for (std::size_t lane = 0; lane < 4; ++lane) t[lane] = &triangles_[waiting_[std::min(lane, waiting_count_ - 1)]];
-    std::array<double, 4> squares{};
-    squares_to(t, at_, y_, squares.data());
-    for (std::size_t lane = 0; lane < waiting_count_; ++lane) rank(waiting_[lane], squares[lane]);
-  }
   bool is_before(const Ranked& a, const Ranked& b) const {
     if (a.square != b.square) return a.square < b.square;
     const SkinTriangle &t = triangles_[a.triangle], &u = triangles_[b.triangle];
@@ -187,9 +71,6 @@ class NearestTriangles {
   const std::vector<SkinTriangle>& triangles_;
   const StagePlaces& at_;
   const Vector3d& y_;
-  bool in_lanes_;
-  std::array<std::uint32_t, 4> waiting_{};
-  std::size_t waiting_count_ = 0;
   std::array<Ranked, most> ranked_;
   std::size_t count_ = 0;
   double others_ = std::numeric_limits<double>::infinity();
@@ -247,7 +128,6 @@ bool WaysOut::find(const Vector3d& y, const StagePlaces& at, BodyTouch& touch) {
   if (is_followed(touch, known)) {
     NearestTriangles<most_kept> nearest(solids_.triangles(), at, y);
     for (const std::uint32_t k : std::span(known.nearest).first(known.count)) nearest.compare(k);
-    nearest.compare_waiting();
     if (!nearest.ranked().empty()) {
       const bool has_depth = take(y, at, nearest.ranked()[0].triangle, touch);
       if (certainly_more * touch.depth < known.others) return has_depth;
@@ -269,7 +149,6 @@ bool WaysOut::search(const Vector3d& y, const StagePlaces& at, BodyTouch& touch,
   NearestTriangles<most_kept> nearest(triangles, at, y);
   for (const std::uint32_t k : around(touch.tetrahedron).triangles)
     if (!(may_share_nodes && has_one_of(triangles[k], corners))) nearest.compare(k);
-  nearest.compare_waiting();
   known = {.tetrahedron = touch.tetrahedron, .call = candidates_.call()};
   touch.triangle = BodyTouch::none;
   if (nearest.ranked().empty()) return true;

@@ -56,20 +56,6 @@ Side side_of(const SkinTetrahedron& t, const Eigen::Vector3d& y, const Place& pl
   return is_on_border ? Side::border : Side::inside;
 }
 
-/// Tetrahedra by their numbers.
-struct TetrahedraToTest {
-  const SkinTetrahedron* all;
-  std::span<const std::uint32_t> numbers;
-};
-
-/// The first of the tetrahedra, from the place `first` on, that y may be inside of: `side_of` decides, whose operations
-/// are done here for four at a time in their order. Those that are turned inside out are added to `inverted`.
-///
-/// returns  their number, where y is outside of all
-/// pre      lanes are on, or `first` is returned
-std::size_t skip_outside(const TetrahedraToTest& tetrahedra, std::size_t first, const StagePlaces& at,
-                         const Eigen::Vector3d& y, std::size_t& inverted);
-
 /// The ways out of tetrahedra for samples inside of them: each is to the nearest of the boundary triangles at the
 /// corners of the tetrahedron, less those with a node of the sample; of equal ones to that of the lowest face and part.
 ///

@@ -112,8 +112,7 @@ class PressedBoxes {
     upper_ = points;
   }
 
-  std::size_t hundred_forces(Added added) {
-    use_lanes(added == Added::in_lanes);
+  std::size_t hundred_forces() {
     const BodyContact contact(skin_.samples(), solids_.solids(), {{0, 1, {.pressure = 1e4, .depth = 0.01}}});
     VertexColumns& v = body_.vertices;
     for (int k = 0; k < 100; ++k) {
@@ -222,15 +221,14 @@ struct Section {
   std::string_view name;
   std::size_t (*run)(Body&);
 };
-constexpr std::array<Section, 26> sections{{
+constexpr std::array<Section, 25> sections{{
     {"backward-euler-springs",
      [](Body& b) { return Springs(b.mesh, Springs::As::columns).steps("backward-euler", 40, 1e-2); }},
     {"backward-euler-springs-as-pieces",
      [](Body& b) { return Springs(b.mesh, Springs::As::pieces).steps("backward-euler", 40, 1e-2); }},
     {"build-general", [](Body& b) { return build_map<Map3>(b.mesh).map.dart_count(); }},
     {"build-tetrahedral", [](Body& b) { return build_map<TetMap>(b.mesh).map.dart_count(); }},
-    {"contact-of-bodies", [](Body&) { return PressedBoxes().hundred_forces(Added::one_by_one); }},
-    {"contact-of-bodies-in-lanes", [](Body&) { return PressedBoxes().hundred_forces(Added::in_lanes); }},
+    {"contact-of-bodies", [](Body&) { return PressedBoxes().hundred_forces(); }},
     {"dissociate-general", [](Body& b) { return dissociate(b.general); }},
     {"dissociate-tetrahedral", [](Body& b) { return dissociate(b.tetrahedral); }},
     {"edges-general", [](Body& b) { return edges(b.general); }},
