@@ -69,9 +69,14 @@ def listed():
 
 
 def with_options(part, options):
-    """The part with the options of its verb: the last of two counts."""
-    given = [word for name in ("seed", "count") if getattr(options, name) for word in ("--" + name, getattr(options, name))]
-    return dataclasses.replace(part, command=part.command + given) if part.name == "drawn" else part
+    """The part `drawn` with the seed and the count that are given, in place of its own; any other part as it is."""
+    if part.name != "drawn":
+        return part
+    command = list(part.command)
+    for name in ("seed", "count"):
+        if getattr(options, name):
+            command[command.index("--" + name) + 1] = getattr(options, name)
+    return dataclasses.replace(part, command=command)
 
 
 def run(part, seconds, spawn=subprocess.Popen):

@@ -7,6 +7,7 @@ import os
 import sys
 import tempfile
 import time
+import types
 import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -120,6 +121,12 @@ class Audit(unittest.TestCase):
         self.assertEqual((status, done), (0, ["slow"]))
         self.assertIn("left out: no time to end", said)
         self.assertLess(time.monotonic() - begun, 30)
+
+    def test_draws_the_scenes_of_the_seed_and_the_count_that_are_given(self):
+        drawn = next(part for part in self.before[1] if part.name == "drawn")
+        given = audit.with_options(drawn, types.SimpleNamespace(seed="7", count=None)).command
+        self.assertEqual([given.count("--seed"), given[given.index("--seed") + 1]], [1, "7"])
+        self.assertEqual(given[given.index("--count") + 1], drawn.command[drawn.command.index("--count") + 1])
 
     def test_lists_parts_with_their_minutes_and_runs_none(self):
         status, said, done = self.answer("--list")

@@ -18,8 +18,8 @@ void add_measure_ablation(CLI::App& app) {
   auto* verb =
       app.add_subcommand("measure-ablation", "Time features on and off in this process (used by bench).")->group("");
   verb->add_option("--process", options->process);
-  verb->add_option("--rounds", options->rounds)->check(CLI::PositiveNumber);
-  verb->add_option("--steps", options->steps)->check(CLI::PositiveNumber);
+  verb->add_option("--rounds", options->rounds)->check(positive_number());
+  verb->add_option("--steps", options->steps)->check(positive_number());
   verb->add_option("--seed", options->seed);
   verb->callback([options] {
     study_ablation(*options, [](const Sample& sample) { tell("{}\n", json_text(nlohmann::json(sample))); });

@@ -16,8 +16,8 @@ void add_measure_contact(CLI::App& app) {
   auto options = std::make_shared<ContactCostPlan>();
   auto* verb = app.add_subcommand("measure-contact", "Time contact in this process (used by bench).")->group("");
   verb->add_option("--process", options->process);
-  verb->add_option("--rounds", options->rounds)->check(CLI::PositiveNumber);
-  verb->add_option("--steps", options->steps)->check(CLI::PositiveNumber);
+  verb->add_option("--rounds", options->rounds)->check(positive_number());
+  verb->add_option("--steps", options->steps)->check(positive_number());
   verb->add_option("--largest", options->largest);
   verb->add_option("--seed", options->seed);
   verb->callback([options] {

@@ -26,7 +26,7 @@ void add_measure_step(CLI::App& app) {
   auto* verb = app.add_subcommand("measure-step", "Time steps in this process (used by bench).")->group("");
   verb->add_flag("--compare", options->compare);
   verb->add_option("--process", options->process);
-  verb->add_option("--rounds", options->rounds)->check(CLI::PositiveNumber);
+  verb->add_option("--rounds", options->rounds)->check(positive_number());
   verb->add_option("--largest", options->largest);
   verb->add_option("--seed", options->seed);
   verb->add_option("--mesh", options->meshes)->take_all();
@@ -47,7 +47,7 @@ void add_measure_changed(CLI::App& app) {
   verb->add_option("--kind", options->kind)->required();
   verb->add_option("--folder", options->folder)->required();
   verb->add_option("--process", options->process);
-  verb->add_option("--rounds", options->rounds)->check(CLI::PositiveNumber);
+  verb->add_option("--rounds", options->rounds)->check(positive_number());
   verb->add_option("--seed", options->seed);
   verb->callback([options] {
     options->compare ? compare_changed(*options, print_sample) : measure_changed(*options, print_sample);
@@ -63,7 +63,7 @@ void add_measure_changing(CLI::App& app) {
   verb->add_flag("--compare", options->compare);
   verb->add_option("--largest", options->largest);
   verb->add_option("--process", options->process);
-  verb->add_option("--rounds", options->rounds)->check(CLI::PositiveNumber);
+  verb->add_option("--rounds", options->rounds)->check(positive_number());
   verb->add_option("--seed", options->seed);
   verb->callback([options] {
     options->compare ? compare_changing(*options, print_sample) : measure_changing(*options, print_sample);

@@ -22,12 +22,12 @@ void add_validate_drawn(CLI::App& validate, Outcome& outcome) {
       *verb, {.quick = "fewer scenes", .seed = "the scenes, and of their faults", .keeps_folder = false});
   verb->add_option("SCENE", options->scene,
                    "a scene file (.json), or a name of the gallery, in place of drawn scenes: its first steps");
-  verb->add_option("--count", options->count, "scenes [1000; 100 with --quick]")->check(CLI::PositiveNumber);
+  verb->add_option("--count", options->count, "scenes [1000; 100 with --quick]")->check(positive_number());
   verb->add_option("--first", options->plan.first, "number of the first scene [0]");
   verb->add_flag("--choose", options->plan.only_choose,
                  "only choose among them: the numbers of scenes that have all pairs of keys and choices");
   verb->add_option("--relation", options->plan.relation, "only this one [all]");
-  verb->add_option("--steps", options->plan.steps, "of SCENE, at most [100]")->check(CLI::PositiveNumber);
+  verb->add_option("--steps", options->plan.steps, "of SCENE, at most [100]")->check(positive_number());
   verb->add_option("--smallest", options->plan.folder,
                    "folder for scenes that break a relation, cut down to what breaks it [.]");
   verb->callback([options, &outcome] {

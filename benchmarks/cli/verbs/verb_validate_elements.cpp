@@ -66,7 +66,7 @@ void add_validate_elements(CLI::App& validate, CLI::App& app, Outcome& outcome) 
       verb->add_option("--operations", options->operations,
                        "in place of the beam: cut, tear and erode bodies of elements, and of two materials by region, "
                        "so many times each, and hold energies, forces, masses and materials against other code");
-  operations->check(CLI::PositiveNumber);
+  operations->check(positive_number());
   verb->add_option("MESH", options->meshes, "mesh files, or names of meshes of the project [liver564.mesh and a box]")
       ->needs(operations);
   verb->add_option("--with", options->with,
