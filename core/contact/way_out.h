@@ -21,17 +21,14 @@ namespace dartboard {
 /// `border`: on a face of the boundary, to rounding.
 enum class Side { inside, outside, inverted, border };
 
-/// The weight that a place may have beyond a face, over the tetrahedron's altitude there.
-inline constexpr double seam_of_sides = 0x1p-40;
-/// The sum of three weights, over their whole, from which on a place is beyond the fourth face.
-inline constexpr double beyond_the_first = 1.0 + 1e-9;
-
 /// The side of y by its weights over the corners; `place` is a function of a node. A place between two cells is in one
 /// of them, whatever the rounding.
 template <class Place>
 Side side_of(const SkinTetrahedron& t, const Eigen::Vector3d& y, const Place& place, std::array<double, 4>& weights) {
   using Eigen::Vector3d;
-  constexpr double seam = seam_of_sides;
+  constexpr double seam = 0x1p-40;  // the weight that a place may have beyond a face
+  // the sum of three weights from which on a place is beyond the fourth face
+  constexpr double beyond_the_first = 1.0 + 1e-9;
   const Vector3d p = place(t.nodes[0]), a = place(t.nodes[1]) - p, b = place(t.nodes[2]) - p, c = place(t.nodes[3]) - p,
                  r = y - p, normal = b.cross(c);
   const double volume = a.dot(normal);

@@ -221,16 +221,14 @@ RelationFound judge_moving_frame(const JudgedScene& s) {
   if (file.obstacles.empty()) return unless_rounding(s, of_vertices, of_vertices(run(1)), s.is_swept());
   if (s.has_box_obstacle()) return does_not_apply("the normal of a box jumps where two of its faces are equally near");
   // an obstacle that moves stands still within a step; where a step is long for a contact, only shorter ones show it
-  double before = distance(s.motion(), run(1));
+  double before = 0.0, after = distance(s.motion(), run(1));
   for (const int parts : {4, 16, 64}) {
-    const double after = distance(s.in_shorter_steps(parts), run(parts));
-    if (after <= 0.6 * before + 1e-6 * s.scales().length) return {};
-    if (parts == 64)
-      return breaks(
-          fmt::format("in steps of 1/64 positions are {:.3g} m apart, and {:.3g} m in steps of 1/16", after, before));
     before = after;
+    after = distance(s.in_shorter_steps(parts), run(parts));
+    if (after <= 0.6 * before + 1e-6 * s.scales().length) return {};
   }
-  return {};
+  return breaks(
+      fmt::format("in steps of 1/64 positions are {:.3g} m apart, and {:.3g} m in steps of 1/16", after, before));
 }
 
 RelationFound judge_far_body(const JudgedScene& s) {

@@ -21,12 +21,10 @@ using namespace moving;
 
 const char* const one_removal = R"([{"at": 0.005, "remove": {"ids": [3, 1, 3]}}])";
 
-ScenePlan plan(const SceneFile& scene) { return plan_scene(scene); }
-
 void expect_exact(const Json& json, const std::string& what) {
   const SceneFile scene = parse(json);
   const Problem problem = make_problem(scene);
-  const ScenePlan planned = plan(scene);
+  const ScenePlan planned = plan_scene(scene);
   for (const PlanItem& item : planned.items)
     EXPECT_EQ(item.bytes, memory::predicted_bytes(scene, problem, planned, item)) << what << ": " << name(item.part);
   for (const MemoryItem& item : planned.unplanned) ADD_FAILURE() << what << ": not planned: " << name(item.part);
@@ -91,8 +89,8 @@ TEST(ScenePlan, IsExactInBytesForDrivenVerticesAndProbes) {
   scene["output"]["probes"] = Json::parse(R"([{"name": "a", "vertex": 3}, {"name": "b", "near": [0, 0, 0]}])");
   expect_exact(scene, "without a map");
   expect_exact(with_events(scene, one_removal), "on a map");
-  EXPECT_GT(item(plan(parse(scene)), Part::driven)->bytes, 0u);
-  EXPECT_EQ(item(plan(parse(scene)), Part::probes)->bytes, 8u);
+  EXPECT_GT(item(plan_scene(parse(scene)), Part::driven)->bytes, 0u);
+  EXPECT_EQ(item(plan_scene(parse(scene)), Part::probes)->bytes, 8u);
 }
 
 TEST(ScenePlan, IsExactInBytesForFramesOfDisplacements) {
@@ -101,7 +99,7 @@ TEST(ScenePlan, IsExactInBytesForFramesOfDisplacements) {
     scene["output"]["fields"] = {"displacement", "springs"};
     expect_exact(scene, std::string(body.name) + " without a map");
     expect_exact(with_events(scene, one_removal), std::string(body.name) + " on a map");
-    const ScenePlan planned = plan(parse(scene));
+    const ScenePlan planned = plan_scene(parse(scene));
     EXPECT_EQ(item(planned, Part::rest)->bytes, 24 * planned.counts.vertices) << body.name;
     EXPECT_EQ(item(planned, Part::rest)->why, "/output/fields: frames show 'displacement'");
     EXPECT_EQ(item(planned, Part::frames)->what, "the cells where they are, displacements, springs");
@@ -142,7 +140,7 @@ TEST(ScenePlan, IsExactInBytesForEveryEvent) {
 TEST(ScenePlan, NamesTheKeyThatAskedForEachThing) {
   Json scene = with_events(moving_box(), R"([{"at": 0.001, "tear": {"vertex": 0, "direction": [1, 0, 0]}}])");
   scene["fixed"] = Json::parse(R"([{"ids": [0, 1]}])");
-  const ScenePlan planned = plan(parse(scene));
+  const ScenePlan planned = plan_scene(parse(scene));
   const auto why = [&planned](Part part) { return item(planned, part) ? item(planned, part)->why : ""; };
   EXPECT_NE(why(Part::map).find("/events/0/tear"), std::string::npos) << why(Part::map);
   EXPECT_NE(why(Part::map).find("tetrahedra alone"), std::string::npos) << why(Part::map);
@@ -153,7 +151,7 @@ TEST(ScenePlan, NamesTheKeyThatAskedForEachThing) {
   EXPECT_EQ(why(Part::gravity), "/gravity: [0.0,0.0,-9.81] (the default)");
   EXPECT_EQ(why(Part::event), "/events/0/tear");
   scene["gravity"] = {1.5, -2.5, 3.5};
-  EXPECT_EQ(item(plan(parse(scene)), Part::gravity)->why, "/gravity: [1.5,-2.5,3.5]");
+  EXPECT_EQ(item(plan_scene(parse(scene)), Part::gravity)->why, "/gravity: [1.5,-2.5,3.5]");
   for (const PlanItem& i : planned.items)
     EXPECT_TRUE(i.why.starts_with("/") || i.why.starts_with("always") || i.why.starts_with("changes of the map"))
         << name(i.part) << ": " << i.why;
@@ -163,7 +161,7 @@ TEST(ScenePlan, LeavesOutWhatNoKeyNeeds) {
   Json scene = moving_box();
   scene["material"]["damping"] = 0;
   scene["material"]["viscosity"] = 0;
-  const ScenePlan bare = plan(parse(scene));
+  const ScenePlan bare = plan_scene(parse(scene));
   EXPECT_EQ(bare.map, "no map");
   EXPECT_TRUE(leaves_out(bare, "map", "/events: no event changes the topology"));
   EXPECT_TRUE(leaves_out(bare, "damping", "/material/damping: 0"));
@@ -176,13 +174,13 @@ TEST(ScenePlan, LeavesOutWhatNoKeyNeeds) {
                           Part::rest, Part::damping, Part::solver, Part::event})
     EXPECT_EQ(item(bare, part), nullptr) << name(part);
 
-  const ScenePlan cut = plan(parse(with_events(moving_box(), one_removal)));
+  const ScenePlan cut = plan_scene(parse(with_events(moving_box(), one_removal)));
   EXPECT_TRUE(leaves_out(cut, "refinement", "/events: no event refines"));
   EXPECT_FALSE(leaves_out(cut, "map, marks", ""));
 }
 
 TEST(ScenePlan, ForeseesHowManyCellsAreRemoved) {
-  const ScenePlan planned = plan(parse(
+  const ScenePlan planned = plan_scene(parse(
       with_events(moving_box(), R"([{"every": 0.002, "from": 0.002, "until": 0.006, "remove": {"random": {"count": 4}}},
                         {"at": 0.01, "remove": {"plane": {"point": [0.125, 0, 0], "normal": [-1, 0, 0]}}}])")));
   EXPECT_EQ(planned.events[0].times, 3u);
@@ -193,7 +191,7 @@ TEST(ScenePlan, ForeseesHowManyCellsAreRemoved) {
 
 // A vertex is torn off at every time of the event, a plane is cut at the first.
 TEST(ScenePlan, ForeseesHowOftenAnEventDoesSomething) {
-  const ScenePlan planned = plan(parse(with_events(
+  const ScenePlan planned = plan_scene(parse(with_events(
       moving_box(), R"([{"every": 0.002, "from": 0.002, "until": 0.006, "tear": {"vertex": 0, "direction": [1, 0, 0]}},
                         {"every": 0.002, "from": 0.002, "until": 0.006, "remove": {"random": {"count": 4}}},
                         {"every": 0.002, "from": 0.002, "until": 0.006, "remove": {"ids": [3, 5]}}])")));
@@ -216,7 +214,7 @@ TEST(ScenePlan, CountsTheTimesOfAnEventWithoutEnd) {
 
 TEST(ScenePlan, TellsApartWhatNoItemPlans) {
   const SceneFile scene = parse(with_events(moving_box(), one_removal));
-  const ScenePlan whole = plan(scene);
+  const ScenePlan whole = plan_scene(scene);
   ScenePlan planned = whole;
   std::erase_if(planned.items, [](const PlanItem& i) { return i.part == Part::map; });
   for (PlanItem& item : planned.items) item.bytes = 0;
@@ -233,7 +231,7 @@ TEST(ScenePlan, TellsApartWhatNoItemPlans) {
 TEST(ScenePlan, ChangesNoBitOfTheTrajectory) {
   const SceneFile scene = parse(with_events(moving_box(), R"([{"every": 0.003, "remove": {"random": {"count": 3}}}])"));
   const auto hash = [&scene](bool explained) {
-    if (explained) plan(scene);
+    if (explained) plan_scene(scene);
     Simulation simulation(scene);
     while (simulation.steps_done() < simulation.step_count()) {
       simulation.advance();
