@@ -19,6 +19,11 @@ class Mobility {
       const Column& inverse_mass, std::span<const HeldAxes> held_axes = {})
       : inverse_mass_(inverse_mass), held_axes_(held_axes) {}
 
+  /// That of the vertices from `first` on, by their numbers from there.
+  Mobility from(std::size_t first) const {
+    return {inverse_mass_.subspan(first), held_axes_.empty() ? held_axes_ : held_axes_.subspan(first)};
+  }
+
   double operator[](std::size_t i) const { return inverse_mass_[i]; }
   HeldAxes held_axes(std::size_t i) const { return held_axes_.empty() ? HeldAxes{0} : held_axes_[i]; }
   /// The velocity [m/s] that an impulse [N s] gives to vertex i.

@@ -63,6 +63,34 @@ void ShiftedTerm::for_each_tangent(const StagePlaces& at, Compression compressio
 void ShiftedTerm::for_each_constant_tangent(const VisitTangent& visit) const {
   term_.for_each_constant_tangent(shifted(first_, visit));
 }
+
+void ShiftedTerm::Damping::add_forces(const StagePlaces& at, std::span<const Vector3d> v,
+                                      std::span<Vector3d> force) const {
+  own().add_forces(places_from(of_.first_, at), v.subspan(of_.first_), force.subspan(of_.first_));
+}
+void ShiftedTerm::Damping::add_force_sizes(const StagePlaces& at, std::span<const Vector3d> v,
+                                           std::span<double> size) const {
+  own().add_force_sizes(places_from(of_.first_, at), v.subspan(of_.first_), size.subspan(of_.first_));
+}
+double ShiftedTerm::Damping::power(std::span<const std::uint32_t> pieces, std::span<const Vector3d> x,
+                                   std::span<const Vector3d> v, std::span<const Vector3d> w) const {
+  return own().power(pieces, x.subspan(of_.first_), v.subspan(of_.first_), w.subspan(of_.first_));
+}
+EnergyChange ShiftedTerm::Damping::rate_change(const StagePlaces& at, std::span<const Vector3d> v,
+                                               std::span<const Vector3d> step, double scale) const {
+  return own().rate_change(places_from(of_.first_, at), v.subspan(of_.first_), step.subspan(of_.first_), scale);
+}
+void ShiftedTerm::Damping::for_each_tangent(const StagePlaces& at, const VisitTangent& visit) const {
+  own().for_each_tangent(places_from(of_.first_, at), shifted(of_.first_, visit));
+}
+void ShiftedTerm::Damping::for_each_constant_tangent(const VisitTangent& visit) const {
+  own().for_each_constant_tangent(shifted(of_.first_, visit));
+}
+void ShiftedTerm::Damping::decay(std::span<const Vector3d> x, double h, const Mobility& mobility, bool backwards,
+                                 std::span<Vector3d> v) const {
+  own().decay(x.subspan(of_.first_), h, mobility.from(of_.first_), backwards, v.subspan(of_.first_));
+}
+
 Virial ShiftedTerm::virial(std::span<const Vector3d> x, std::size_t piece) const {
   return term_.virial(x.subspan(first_), piece);
 }

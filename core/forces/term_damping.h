@@ -10,10 +10,10 @@
 
 namespace dartboard {
 
-/// Forces - C v, with C a function of the positions: symmetric, positive semidefinite, and zero for every rigid motion,
-/// so that linear and angular momentum stay.
+/// Forces - C v, with C a function of the positions: symmetric, positive semidefinite, and but for viscosities zero for
+/// every rigid motion, so that linear and angular momentum stay.
 ///
-/// The C of a piece is `time` times a stiffness, that of its material without stress.
+/// The C of a piece is `time` times a stiffness, that of its material without stress; or it is a viscosity.
 /// cost    O(pieces) unless stated otherwise
 class TermDamping {
  public:
@@ -24,6 +24,8 @@ class TermDamping {
 
   /// The damping time of a piece [s]; 0 where it is not damped.
   virtual double time(std::size_t piece) const = 0;
+  /// Is C no multiple of a stiffness, but a viscosity, which damps rigid motions too? Then `time` is 1 s.
+  virtual bool is_viscous() const { return false; }
 
   /// force -= C v [N] at these places.
   virtual void add_forces(const StagePlaces& at, std::span<const Eigen::Vector3d> v,
@@ -40,6 +42,9 @@ class TermDamping {
 
   /// The stiffness of every piece, damped or not, that `time` is multiplied by.
   virtual void for_each_tangent(const StagePlaces& at, const VisitTangent& visit) const = 0;
+  /// Of a viscosity: a constant matrix at least as large near rest, each block a multiple of the identity. Of other
+  /// damping it is that of the term.
+  virtual void for_each_constant_tangent(const VisitTangent&) const {}
 
   /// Let v decay for h at fixed positions: part after part of each piece, in the order of their numbers or backwards,
   /// each as if it were alone; no part adds energy, whatever h > 0.

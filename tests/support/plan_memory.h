@@ -1,12 +1,15 @@
 #pragma once
 // The memory of each part of a plan, computed by hand from the mesh: the oracle of SimulatedBody::memory.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <map>
 #include <memory>
 #include <vector>
 
 #include "core/base/bytes.h"
+#include "core/scene/forces/attached_points.h"
 #include "core/scene/plan/scene_plan.h"
 #include "core/scene/timeline/driven_vertices.h"
 #include "core/time/watch/divergence.h"
@@ -84,6 +87,42 @@ inline std::size_t boundary_size(const Mesh& mesh) {
   return size;
 }
 
+inline std::size_t predicted_force_bytes(const SceneFile& scene, const Problem& problem, const ScenePlan& plan,
+                                         const PlanItem& item) {
+  constexpr std::size_t number = sizeof(std::uint32_t), real = sizeof(double);
+  const CellCounts& n = plan.counts;
+  const bool on_map = plan.needs.body.topology_changes;
+  if (item.name() == "bending")
+    return n.edges * (scene.bending.rigidity > 0.0 ? 4 * number + 3 * real : 6 * number + 2 * real);
+  if (item.name() == "attachments") {  // rows; on a map their attachments, the cells attached to, and lists by number
+    std::size_t rows = 0;
+    std::vector<std::uint32_t> cells;
+    for (const AttachedPoints& one : find_attachments(scene, problem))
+      for (const Attachment& point : one.points) {
+        ++rows;
+        if (point.has_cell()) cells.push_back(point.cell);
+      }
+    const std::size_t to_cells = cells.size();
+    std::ranges::sort(cells);
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    const std::size_t row = 6 * number + 4 * real + vector + real;
+    if (!on_map) return rows * row;
+    return rows * (row + 8 * number + 4 * real + vector + real) + rows * 5 * number + to_cells * number +
+           cells.size() * 2 * number + (cells.size() + 1) * number +
+           (n.vertices + (cells.empty() ? 0 : n.cells)) * number;
+  }
+  if (item.name() == "air") {  // corners, their number and area; on a map, the face of each row and the row of each face
+    const bool surface = plan.needs.body.storage == Storage::surface;
+    std::size_t faces = 0, corners = 0;  // of the boundary: each is counted once, with its corners
+    for (const std::vector<int>& face : faces_of(problem.mesh.kinds.front())) corners = face.size();
+    faces = surface ? n.cells : boundary_size(problem.mesh) / (1 + corners);
+    return faces * (6 * number + real) + n.vertices * vector +
+           (on_map ? (faces + (surface ? n.cells : n.faces)) * number : 0);
+  }
+  ADD_FAILURE() << "no prediction for " << item.name();
+  return 0;
+}
+
 inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& problem, const ScenePlan& plan,
                                    const PlanItem& item) {
   constexpr std::size_t number = sizeof(std::uint32_t), real = sizeof(double);
@@ -147,24 +186,7 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
       return n.cells * (tetrahedra ? 9 * real + 4 * number : sizeof(SolidShape) + sizeof(SolidNodes));
     case Part::cell_springs:  // kind, first and number, modulus, 16 lengths; eight corners and their count
       return n.cells * (2 * real + 16 * real) + (problem.cell_materials().has_elements() ? 0 : n.cells * 9 * number);
-    case Part::bending: return n.edges * (scene.bending.rigidity > 0.0 ? 4 * number + 3 * real : 6 * number + 2 * real);
-    case Part::attachments: {  // rows; on a map their attachments, the cells attached to, and lists by number
-      std::size_t rows = 0;
-      std::vector<std::uint32_t> cells;
-      for (const AttachedPoints& one : plan.needs.body.attached)
-        for (const Attachment& point : one.points) {
-          ++rows;
-          if (point.has_cell()) cells.push_back(point.cell);
-        }
-      const std::size_t to_cells = cells.size();
-      std::ranges::sort(cells);
-      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-      const std::size_t row = 6 * number + 4 * real + vector + real;
-      if (!plan.needs.body.topology_changes) return rows * row;
-      return rows * (row + 8 * number + 4 * real + vector + real) + rows * 5 * number + to_cells * number +
-             cells.size() * 2 * number + (cells.size() + 1) * number +
-             (n.vertices + (cells.empty() ? 0 : n.cells)) * number;
-    }
+    case Part::force: return predicted_force_bytes(scene, problem, plan, item);
     // laws, obstacles, their displacement and loss; samples; velocities to restore, and as a step begins
     case Part::contact: {
       const std::size_t samples = arrays.body().contact()->samples().size(), faces = dimension == 3 ? n.faces : n.cells;
@@ -179,7 +201,7 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
     case Part::integrator: return predicted_integrator_bytes(scene.integrator, counts_of(arrays.system()));
     case Part::solver: return predicted_solver_bytes(scene.integrator, arrays.system());
     case Part::detector: return n.vertices * 2 * vector;
-    case Part::event: return predicted_event_bytes(scene.events.at(item.event), plan);
+    case Part::event: return predicted_event_bytes(scene.events.at(item.which), plan);
     case Part::output_cells:
       if (scene.is_chain()) return n.edges * real + 2 * number;
       return n.cells * (sizeof(CellKind) + number + real + number) + number + problem.mesh.nodes.size() * number +

@@ -9,6 +9,7 @@
 
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
+#include "core/scene/file/force_kind.h"
 #include "core/scene/file/scene_problem.h"
 
 namespace dartboard {
@@ -43,8 +44,8 @@ BarOfScene bar_of_scene(const SceneFile& scene) {
     fail("/material/young", "is missing", "a Young's modulus [Pa], which every model can be given");
   if (!scene.driven.empty()) fail("/driven", "moves vertices", "a bar held at one end, and no more");
   if (!scene.forces.empty()) fail("/forces", "pulls at vertices", "a bar under its own weight");
-  if (!scene.attachments.empty())
-    fail("/attachments", "holds vertices by springs", "a bar held at one end, and no more");
+  for (const ForceKind& kind : force_kinds())
+    if (kind.is_in(scene)) fail(fmt::format("/{}", kind.name), "is a force", "a bar held at one end, and no more");
   if (scene.has_contact()) fail("/contact", "says what touches", "a bar that touches nothing");
 
   const std::vector<std::uint32_t> fixed = [&] {

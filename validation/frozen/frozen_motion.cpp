@@ -6,6 +6,7 @@
 
 #include "core/plain/cell_materials.h"
 #include "core/plain/nan_maximum.h"
+#include "core/scene/file/force_kind.h"
 #include "reference/rebuild.h"
 
 namespace dartboard {
@@ -78,9 +79,9 @@ std::string beyond_references(const SceneFile& file, const Mesh& mesh) {
   if (is_mixed(mesh)) return "bodies of several dimensions";
   if (file.has_contact()) return "contact";
   if (changes_in_every_step(file)) return "loads that change in time";
-  if (!file.key_beside_edges().empty()) return "springs that are no edges";
-  if (!file.attachments.empty()) return "attachments";
-  if (std::ranges::any_of(file.forces, &SceneForce::follows)) return "pressures that follow their faces";
+  if (file.diagonals != Diagonals::none) return "springs that are no edges";
+  for (const ForceKind& kind : force_kinds())
+    if (kind.is_in(file)) return std::string(kind.name);
   if (file.has_elements() && mesh.dimension() == 2) return "membranes";
   const auto known = [](CellKind kind) { return kind == CellKind::tetrahedron || kind == CellKind::hexahedron; };
   if (file.has_elements() && !std::ranges::all_of(mesh.kinds, known)) return "elements of these cells";

@@ -267,7 +267,7 @@ bool FrozenBody::drive(double time) {
   const double after = time + 0x1p-40 * scene_.file.duration;  // so soon that nothing else has changed
   const std::span<const std::uint32_t> point = body_->vertices().point;
   const LoadChange driven = driven_.apply(time, after, point, body_->motion().v);
-  const LoadChange forces = forces_.apply(time, after, point, body_->pull(), body_->pressures());
+  const LoadChange forces = forces_.apply(time, after, point, body_->pull(), body_->loads());
   return std::max(driven, forces) == LoadChange::begins_or_ends;
 }
 
@@ -275,7 +275,7 @@ bool FrozenBody::load(Integrator& integrator, double time, double h) {
   const std::span<const std::uint32_t> point = body_->vertices().point;
   const bool driven = driven_.follow(time, time + h, point, body_->motion().v);
   if (driven) integrator.drives_changed();
-  const bool forced = forces_.follow(time, time + h, point, body_->pull(), body_->pressures());
+  const bool forced = forces_.follow(time, time + h, point, body_->pull(), body_->loads());
   return driven || forced;
 }
 

@@ -84,9 +84,9 @@ std::string to_text(const SceneFile& scene, const ScenePlan& plan, const std::op
   text += "\n";
   Table table({{"part"}, {"bytes", Align::right}, {"what"}, {"why"}});
   for (const PlanItem& item : plan.items)
-    table.add_row({std::string(name(item.part)), fmt::format("{}", item.bytes), item.what, item.why});
+    table.add_row({std::string(item.name()), fmt::format("{}", item.bytes), item.what, item.why});
   for (const MemoryItem& item : plan.unplanned)
-    table.add_row({std::string(name(item.part)), fmt::format("{}", item.bytes), "NOT PLANNED", ""});
+    table.add_row({std::string(name_of(item.part, item.which)), fmt::format("{}", item.bytes), "NOT PLANNED", ""});
   table.add_row({"in all", fmt::format("{}", plan.bytes()), "", ""});
   Table without({{"left out", Align::left}, {"because", Align::left}});
   for (const LeftOut& item : plan.left_out) without.add_row({item.what, item.why});
@@ -122,7 +122,7 @@ nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan,
   json["remarks"] = plan.remarks;
   json["plan"] = json["left_out"] = nlohmann::ordered_json::array();
   for (const PlanItem& item : plan.items)
-    json["plan"].push_back({{"part", name(item.part)}, {"what", item.what}, {"why", item.why}, {"bytes", item.bytes}});
+    json["plan"].push_back({{"part", item.name()}, {"what", item.what}, {"why", item.why}, {"bytes", item.bytes}});
   if (plan.contact) {
     const auto or_null = [](double x) {
       return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json();
@@ -156,7 +156,7 @@ nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan,
                      {"removed_per_kg_at_most", removed_at_most(*scene.sleep)}};
   for (const LeftOut& item : plan.left_out) json["left_out"].push_back({{"what", item.what}, {"why", item.why}});
   for (const MemoryItem& item : plan.unplanned)
-    json["unplanned"].push_back({{"part", name(item.part)}, {"bytes", item.bytes}});
+    json["unplanned"].push_back({{"part", name_of(item.part, item.which)}, {"bytes", item.bytes}});
   if (measured) json["measured"] = {{"ns_per_step", measured->ns}, {"steps", measured->steps}};
   return json;
 }

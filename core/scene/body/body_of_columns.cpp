@@ -17,10 +17,8 @@
 #include "core/scene/body/events/ready.h"
 #include "core/scene/body/frame_columns.h"
 #include "core/scene/body/make_contact.h"
-#include "core/views/attachments_view.h"
 #include "core/views/boundary_surface.h"
 #include "core/views/component_labels.h"
-#include "core/views/inner_edges_view.h"
 #include "core/views/skin.h"
 #include "core/views/skin_solids_view.h"
 
@@ -106,18 +104,15 @@ void BodyOfColumns::link(const Problem& problem, const BodyNeeds& needs) {
   }
   vertices_.hold(problem.held_axes);
   if (needs.pull) vertices_.pull.assign(points.size(), Eigen::Vector3d(0, 0, 0));
-  if (!needs.attached.empty()) {
-    for (const Attachment& one : shared_by_mass(needs.attached, vertices_))
-      attached_.push_back(dartboard::attached(one, one.point));
-    attached_.shrink_to_fit();
-    attachment_ = make_attachments(attached_, vertices_.mass);
-    terms_.push_back(attachment_.get());
-  }
-  if (!needs.obstacles.empty()) {
-    samples_ = samples_of_links(ends_, springs_, materials, points.size());
-    contact_ = make_contact(needs.obstacles, samples_);
-    terms_.push_back(contact_.get());
-  }
+  forces_.make(needs.forces, {1, vertices_, {}});
+  forces_.for_each([this](BodyForce& force) {
+    force.rebuild({vertices_, [](std::span<const std::uint32_t> cells) {
+                     return std::vector<std::vector<CellCorner>>(cells.size());
+                   }});
+    force.leave_map();
+  });
+  if (!needs.obstacles.empty()) samples_ = samples_of_links(ends_, springs_, materials, points.size());
+  forces_.touch_obstacles(needs.obstacles, samples_);
 }
 
 template <class Map>
@@ -150,54 +145,24 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   cells_.kinds = mesh.kinds;
   cells_.first = mesh.first;
   for (const std::uint32_t p : mesh.nodes) cells_.nodes.push_back(vertex_of[p]);
-  pressed_ = needs.pressed;
-  for (PressedFace& face : pressed_)
-    for (std::uint32_t k = 0; k < face.count; ++k) face.corner[k] = vertex_of[face.corner[k]];
-  if (!pressed_.empty()) {
-    pressure_.assign(needs.forces, 0.0);
-    face_pressure_ = std::make_unique<FacePressureTerm>(pressed_, pressure_);
-  }
-
-  if constexpr (Map::dimension == 2)
-    if (needs.bending.any()) {
-      body.vertices.keep_rest();
-      const auto rows_of = [&body](auto view) {
-        view.rebuild(body);
-        view.rows.shrink_to_fit();
-        return std::move(view.rows);
-      };
-      if (needs.bending.rigidity > 0.0) {
-        bends_ = rows_of(BendingView(needs.bending.rigidity));
-        bending_ = make_bending(bends_);
-      } else {
-        neighbours_ = rows_of(SecondNeighboursView());
-        bending_ = make_second_neighbours(neighbours_, needs.bending.second_neighbours);
-      }
-      body.vertices.rest = {};
-    }
-
-  if (!needs.attached.empty()) {
-    AttachmentsView view(shared_by_mass(needs.attached, body.vertices),
-                         [this](std::uint32_t cell) { return mesh_cell(cell); });
-    view.rebuild(body);
-    attached_ = std::move(view.rows);
-    attachment_ = make_attachments(attached_, vertices_.mass);
-  }
+  if (needs.rest_of_forces()) body.vertices.keep_rest();
+  forces_.make(needs.forces, {Map::dimension, vertices_, [this](std::uint32_t cell) { return mesh_cell(cell); }});
+  forces_.for_each([&body](BodyForce& force) {
+    force.rebuild(&body);
+    force.leave_map();
+  });
   if (needs.contact()) {
-    body.vertices.keep_rest();
     Skin skin;
     skin.rebuild(body);
     samples_ = skin.samples();
-    if (!needs.obstacles.empty()) contact_ = make_contact(needs.obstacles, samples_);
-    if (!needs.touches.empty()) {
-      SkinSolidsView solids(
-          [this, &needs](std::uint32_t cell) { return body_of_cell(needs.first_cell, mesh_cell(cell)); });
-      solids.rebuild(body);
-      skin_solids_ = solids.solids();
-      body_contact_ = std::make_unique<BodyContact>(samples_, skin_solids_, needs.touches, needs.still);
-    }
-    body.vertices.rest = {};
   }
+  if (!needs.touches.empty()) {
+    SkinSolidsView solids(
+        [this, &needs](std::uint32_t cell) { return body_of_cell(needs.first_cell, mesh_cell(cell)); });
+    solids.rebuild(body);
+    skin_solids_ = solids.solids();
+  }
+  body.vertices.rest = {};
 
   volume_ = std::move(room.at_rest);
   vertices_ = std::move(body.vertices);
@@ -228,17 +193,16 @@ void BodyOfColumns::take(MassSpringBody<Map, Held::by_every_dart> body, const Me
   elements_ = make_elements(materials, shapes_, {nodes_, solid_nodes_, triangle_nodes_}, cell_mass_);
   springs_within_ = std::move(body.cell_springs);
   if (!springs_within_.empty()) cell_springs_ = make_cell_springs({solid_nodes_, springs_within_});
-  for (const auto* term : {elements_.get(), cell_springs_.get(), bending_.get(), attachment_.get()})
-    if (term != nullptr) terms_.push_back(term);
-  if (face_pressure_) terms_.push_back(face_pressure_.get());
-  if (contact_) terms_.push_back(contact_.get());
-  if (body_contact_) terms_.push_back(body_contact_.get());
+  forces_.add(elements_.get());
+  forces_.add(cell_springs_.get());
+  forces_.touch_obstacles(needs.obstacles, samples_);
+  if (!needs.touches.empty())
+    forces_.touch_bodies(std::make_unique<BodyContact>(samples_, skin_solids_, needs.touches, needs.still));
   // columns that grew by doubling give back unused memory
   for_each_column(vertices_, VertexColumns::embedded(), [](auto& column, const auto&) { column.shrink_to_fit(); });
   const auto fit = [](auto&... columns) { (columns.shrink_to_fit(), ...); };
   fit(vertices_.dart, springs_, ends_, nodes_, solid_nodes_, springs_within_, triangle_nodes_);
   with_shapes(shapes_, fit);
-  attached_.shrink_to_fit();
   fit(cells_.kinds, cells_.first, cells_.nodes, cell_mass_, component_, facet_first_, facet_node_);
   fit(cell_material_, volume_);
 }
@@ -252,7 +216,7 @@ MemoryReport BodyOfColumns::memory() const {
       {Part::viscosity, bytes_of(vertices_.viscosity)},
       {Part::fixed, bytes_of(vertices_.fixed, vertices_.held_axes)},
       {Part::rest, bytes_of(vertices_.rest)},
-      {Part::pull, bytes_of(vertices_.pull, pressed_, pressure_) + (face_pressure_ ? face_pressure_->bytes() : 0)},
+      {Part::pull, bytes_of(vertices_.pull)},
       {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
       {Part::damping, springs_.damping_bytes()},
       {Part::elements, shapes + bytes_of(nodes_, triangle_nodes_) + (of_elements ? bytes_of(solid_nodes_) : 0)},
@@ -261,11 +225,12 @@ MemoryReport BodyOfColumns::memory() const {
            bytes_of(cell_material_, volume_, mesh_cell_)}};
   if (cell_springs_)
     report.push_back({Part::cell_springs, bytes_of(springs_within_) + (of_elements ? 0 : bytes_of(solid_nodes_))});
-  if (bending_) report.push_back({Part::bending, bytes_of(bends_, neighbours_)});
-  if (attachment_) report.push_back({Part::attachments, bytes_of(attached_)});
-  if (contact_ || body_contact_)
-    report.push_back({Part::contact, bytes_of(samples_) + (contact_ ? contact_->bytes() : 0) +
-                                         (body_contact_ ? skin_solids_.bytes() + body_contact_->bytes() : 0)});
+  forces_.report(report);
+  const ObstacleContact* const obstacles = contact();
+  const BodyContact* const bodies = body_contact();
+  if (obstacles != nullptr || bodies != nullptr)
+    report.push_back({Part::contact, bytes_of(samples_) + (obstacles != nullptr ? obstacles->bytes() : 0) +
+                                         (bodies != nullptr ? skin_solids_.bytes() + bodies->bytes() : 0)});
   return report;
 }
 
@@ -352,7 +317,7 @@ Frame BodyOfColumns::frame(const FrameFields& fields) const {
   frame.material = cell_material_;
   std::vector<double> room;
   fill_columns(frame, fields, vertices_, system(), fields.stress ? volumes(room) : VertexVolumes{});
-  if (fields.contact) fill_contact(frame, contact_.get(), body_contact_.get());
+  if (fields.contact) fill_contact(frame, contact(), body_contact());
   return frame;
 }
 

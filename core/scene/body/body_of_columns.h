@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "core/elements/attachments.h"
-#include "core/elements/bending.h"
 #include "core/elements/cell_springs.h"
 #include "core/mechanics/element_shapes.h"
 #include "core/plain/mesh.h"
@@ -34,13 +32,7 @@ class BodyOfColumns final : public SimulatedBody {
   std::string map_name() const override { return "no map"; }
   VertexColumns& vertices() override { return vertices_; }
   using SimulatedBody::vertices;
-  SpringSystem system() const override { return system_of(vertices_, ends_, springs_, gravity_, terms_); }
-  std::span<double> pressures() override { return pressure_; }
-  FacePressureTerm* face_pressure() override { return face_pressure_.get(); }
-  ObstacleContact* contact() override { return contact_.get(); }
-  BodyContact* body_contact() override { return body_contact_.get(); }
-  using SimulatedBody::body_contact;
-  using SimulatedBody::contact;
+  SpringSystem system() const override { return system_of(vertices_, ends_, springs_, gravity_, forces_.terms()); }
   /// throws  InputError for an event that would change the topology
   std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override;
 
@@ -56,8 +48,6 @@ class BodyOfColumns final : public SimulatedBody {
   void state(Archive& archive) override {
     SimulatedBody::state(archive);
     archive(vertices_);
-    if (face_pressure_) archive(pressure_);
-    if (contact_) archive(*contact_);
   }
   MemoryReport memory() const override;
 
@@ -79,18 +69,9 @@ class BodyOfColumns final : public SimulatedBody {
   std::vector<TriangleNodes> triangle_nodes_;
   std::unique_ptr<ForceTerm> elements_;  // null where all are springs
   std::vector<CellSprings> springs_within_;
-  std::vector<BendingEdge> bends_;  // of a surface, one of the two where it resists bending
-  std::vector<SecondNeighbours> neighbours_;
-  std::vector<AttachedVertex> attached_;
-  std::unique_ptr<ForceTerm> cell_springs_, bending_, attachment_;
-  std::vector<PressedFace> pressed_;
-  std::vector<double> pressure_;  // [Pa] by force; empty without such faces
-  std::unique_ptr<FacePressureTerm> face_pressure_;
+  std::unique_ptr<ForceTerm> cell_springs_;
   std::vector<SkinSample> samples_;  // of its boundary, where there is contact
-  std::unique_ptr<ObstacleContact> contact_;
   SkinSolids skin_solids_;  // what its parts can be inside of, where some touch
-  std::unique_ptr<BodyContact> body_contact_;
-  std::vector<const ForceTerm*> terms_;  // those that are present
   Eigen::Vector3d gravity_{0, 0, 0};
   Material material_;
   std::vector<Material> materials_;            // of a body of several

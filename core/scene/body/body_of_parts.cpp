@@ -21,10 +21,6 @@ constexpr std::string_view name_of_kind(int dimension) {
   return dimension == 3 ? "solids" : dimension == 2 ? "surfaces" : "chains";
 }
 
-std::uint32_t place_in(const std::vector<std::uint32_t>& ascending, std::uint32_t number) {
-  return static_cast<std::uint32_t>(std::ranges::lower_bound(ascending, number) - ascending.begin());
-}
-
 /// The needs of a part: its own of the map, those of the whole for columns, without what is held over all parts.
 BodyNeeds needs_of_part(const ProblemPart& part, const BodyNeeds& whole) {
   BodyNeeds needs = whole;
@@ -32,14 +28,7 @@ BodyNeeds needs_of_part(const ProblemPart& part, const BodyNeeds& whole) {
   needs.storage = storage_of(part.problem.mesh);
   needs.topology_changes = whole.topology_changes && has_cells;
   if (!has_cells) needs.diagonals = Diagonals::none;
-  if (part.dimension != 2) needs.bending = {};
-  needs.attached.clear();
-  needs.pressed.clear();
-  for (PressedFace face : whole.pressed) {
-    if (!std::ranges::binary_search(part.cell, face.cell)) continue;
-    for (std::uint32_t k = 0; k < face.count; ++k) face.corner[k] = place_in(part.point, face.corner[k]);
-    needs.pressed.push_back(face);
-  }
+  std::erase_if(needs.forces, &ForceNeed::over_parts);
   if (part.dimension != 3) needs.touches.clear();
   return needs;
 }
@@ -75,26 +64,15 @@ BodyOfParts::BodyOfParts(const Problem& problem, const BodyNeeds& needs, MakePar
   for (Member& part : parts_) {
     const SimulatedBody& body = *part.body;
     for (const ForceTerm* term : body.terms_but_contact(body.system().terms)) {
-      if (term == part.body->face_pressure()) continue;
       if (part.first > 0) term = part.terms.emplace_back(std::make_unique<ShiftedTerm>(*term)).get();
-      terms_.push_back(term);
+      forces_.add(term);
     }
   }
-  if (!needs.attached.empty()) {
-    attachments_ = shared_by_mass(needs.attached, vertices_);
-    for (const Attachment& one : attachments_)
-      if (one.has_cell()) target_cells_.push_back(one.cell);
-    std::ranges::sort(target_cells_);
-    target_cells_.erase(std::unique(target_cells_.begin(), target_cells_.end()), target_cells_.end());
-    attachment_ = make_attachments(attached_, vertices_.mass);
-    terms_.push_back(attachment_.get());
-  }
-  if (!needs.pressed.empty()) {
-    pressure_.assign(needs.forces, 0.0);
-    terms_.push_back((face_pressure_ = std::make_unique<FacePressureTerm>(pressed_, pressure_)).get());
-  }
-  if (!needs.obstacles.empty()) terms_.push_back((contact_ = make_contact(needs.obstacles, samples_)).get());
-  if (const BodyContact* touching = leading().body_contact()) terms_.push_back(touching);
+  std::vector<ForceNeed> over_parts = needs.forces;
+  std::erase_if(over_parts, [](const ForceNeed& need) { return !need.over_parts; });
+  forces_.make(over_parts, {parts_.front().dimension, vertices_, {}});
+  forces_.touch_obstacles(needs.obstacles, samples_);
+  forces_.touch_bodies(leading().body_contact());
   take_state();
 }
 
@@ -141,48 +119,25 @@ void BodyOfParts::take_state() {
   take_vertices();
   springs_ = {};
   ends_.clear();
-  pressed_.clear();
   samples_.clear();
   for (Member& part : parts_) {
     const SpringSystem system = std::as_const(*part.body).system();
     for (const auto& [a, b] : system.ends) ends_.push_back({part.first + a, part.first + b});
     for (const Spring spring : system.springs) springs_.push_back(spring);
     for (const auto& term : part.terms) term->shift_to(part.first);
-    if (const FacePressureTerm* pressure = part.body->face_pressure())
-      for (PressedFace face : pressure->rows()) {
-        for (std::uint32_t k = 0; k < face.count; ++k) face.corner[k] += part.first;
-        pressed_.push_back(face);
-      }
     if (const ObstacleContact* contact = part.body->contact())
       for (SkinSample sample : contact->samples()) {
         for (std::uint32_t k = 0; k < sample.count; ++k) sample.nodes[k] += part.first;
         samples_.push_back(sample);
       }
   }
-  attach();
+  forces_.for_each([this](BodyForce& force) {
+    force.rebuild({vertices_, [this](std::span<const std::uint32_t> cells) { return corners_of(cells); }});
+  });
   for (std::size_t k = 0; k < tracked_.size(); ++k) {
     const Member& part = parts_[tracked_in_[k].part];
     const std::uint32_t vertex = part.body->tracked()[tracked_in_[k].place];
     tracked_[k] = vertex == no_vertex ? no_vertex : part.first + vertex;
-  }
-}
-
-/// Each part of an attached vertex has a row, as in AttachmentsView.
-void BodyOfParts::attach() {
-  if (!attachment_) return;
-  attached_.clear();
-  const auto corners = corners_of(target_cells_);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> at;  // (point, vertex)
-  for (std::uint32_t k = 0; k < vertices_.size(); ++k) at.push_back({vertices_.point[k], k});
-  std::ranges::sort(at);
-  for (const Attachment& one : attachments_) {
-    const auto* cell = one.has_cell() ? &corners[place_in(target_cells_, one.cell)] : nullptr;
-    if (cell != nullptr && cell->empty()) continue;
-    for (auto k = std::ranges::lower_bound(at, std::pair(one.point, 0u)); k != at.end() && k->first == one.point; ++k) {
-      AttachedVertex& row = attached_.emplace_back(attached(one, k->second));
-      for (std::size_t a = 0; a < one.count; ++a)
-        row.nodes[a + 1] = std::ranges::find(*cell, one.corners[a], &CellCorner::point)->vertex;
-    }
   }
 }
 
@@ -408,7 +363,7 @@ Frame BodyOfParts::frame(const FrameFields& fields) const {
   all.strain = std::move(of_links.strain);
   append(all.strain, of_springs.strain);
   all.fields = fields;
-  if (fields.contact) fill_contact(all, contact_.get(), leading().body_contact());
+  if (fields.contact) fill_contact(all, contact(), body_contact());
   return all;
 }
 
@@ -421,8 +376,7 @@ std::string BodyOfParts::violation() const {
 void BodyOfParts::state(Archive& archive) {
   if (!archive.reads()) give_state();
   for (const Member& part : parts_) part.body->state(archive);
-  archive(pressure_);
-  if (contact_) archive(*contact_);
+  forces_.state(archive);
   if (archive.reads()) take_state();
 }
 
@@ -437,11 +391,11 @@ MemoryReport BodyOfParts::memory() const {
       {Part::viscosity, bytes_of(vertices_.viscosity)},
       {Part::fixed, bytes_of(vertices_.fixed, vertices_.held_axes)},
       {Part::rest, bytes_of(vertices_.rest)},
-      {Part::pull, bytes_of(vertices_.pull, pressed_, pressure_) + (face_pressure_ ? face_pressure_->bytes() : 0)},
+      {Part::pull, bytes_of(vertices_.pull)},
       {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
       {Part::damping, springs_.damping_bytes()}};
-  if (attachment_) report.push_back({Part::attachments, bytes_of(attachments_, target_cells_, attached_)});
-  if (contact_) report.push_back({Part::contact, bytes_of(samples_) + contact_->bytes()});
+  forces_.report(report);
+  if (contact() != nullptr) report.push_back({Part::contact, bytes_of(samples_) + contact()->bytes()});
   for (const Member& part : parts_)
     for (const MemoryItem& item : part.body->memory()) report.push_back(item);
   return report;

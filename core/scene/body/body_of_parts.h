@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/elements/attachments.h"
 #include "core/forces/shifted_term.h"
 #include "core/mechanics/problem_parts.h"
 #include "core/scene/body/simulated_body.h"
@@ -17,8 +16,8 @@ namespace dartboard {
 /// Its columns are those of its parts, one after another: solids, surfaces, chains. They are the state between events;
 /// an event operates on the parts, which are given the state before, and the columns are made anew after it.
 ///
-/// Attachments join the parts. Contact with obstacles and pressures that follow their faces are terms over all of them;
-/// contact between bodies is that of the solids, whose vertices come first.
+/// Forces of some kinds are over all of them (ForceNeed::over_parts), as attachments, which join the parts; so is contact
+/// with obstacles. Contact between bodies is that of the solids, whose vertices come first.
 /// cost  O(vertices + springs + pieces of surfaces + attachments) for each event that changes anything, and O(cells) to
 ///       find attached cells, in addition to that of the parts
 class BodyOfParts final : public SimulatedBody {
@@ -33,13 +32,7 @@ class BodyOfParts final : public SimulatedBody {
   std::string map_name() const override;
   VertexColumns& vertices() override { return vertices_; }
   using SimulatedBody::vertices;
-  SpringSystem system() const override { return system_of(vertices_, ends_, springs_, gravity_, terms_); }
-  std::span<double> pressures() override { return pressure_; }
-  FacePressureTerm* face_pressure() override { return face_pressure_.get(); }
-  ObstacleContact* contact() override { return contact_.get(); }
-  BodyContact* body_contact() override { return leading().body_contact(); }
-  using SimulatedBody::body_contact;
-  using SimulatedBody::contact;
+  SpringSystem system() const override { return system_of(vertices_, ends_, springs_, gravity_, forces_.terms()); }
   void track(std::uint32_t vertex) override;
 
   /// Cells by place or number, in whichever part they are; what only solids have acts on the solids.
@@ -78,23 +71,13 @@ class BodyOfParts final : public SimulatedBody {
   void give_state() const;
   void take_state();
   void take_vertices();
-  void attach();
 
   std::vector<Member> parts_;
   VertexColumns vertices_;
   Springs springs_;
   std::vector<SpringEnds> ends_;
   Eigen::Vector3d gravity_{0, 0, 0};
-  std::vector<Attachment> attachments_;      // constant
-  std::vector<std::uint32_t> target_cells_;  // of the mesh, ascending
-  std::vector<AttachedVertex> attached_;
-  std::unique_ptr<ForceTerm> attachment_;  // null without attachments
-  std::vector<PressedFace> pressed_;
-  std::vector<double> pressure_;  // [Pa] by force; empty without such faces
-  std::unique_ptr<FacePressureTerm> face_pressure_;
   std::vector<SkinSample> samples_;
-  std::unique_ptr<ObstacleContact> contact_;
-  std::vector<const ForceTerm*> terms_;  // those that are present
   std::vector<Tracked> tracked_in_;
 };
 

@@ -11,8 +11,6 @@
 
 #include "core/base/bytes.h"
 #include "core/base/share_jobs.h"
-#include "core/elements/attachments.h"
-#include "core/elements/bending.h"
 #include "core/elements/cell_springs.h"
 #include "core/mechanics/adapt.h"
 #include "core/mechanics/add_cell_springs.h"
@@ -30,11 +28,9 @@
 #include "core/scene/body/make_contact.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/topology/check.h"
-#include "core/views/attachments_view.h"
 #include "core/views/component_labels.h"
 #include "core/views/element_nodes_view.h"
-#include "core/views/inner_edges_view.h"
-#include "core/views/pressed_faces.h"
+#include "core/views/followed_cells.h"
 #include "core/views/skin.h"
 #include "core/views/skin_solids_view.h"
 #include "core/views/spring_ends.h"
@@ -51,13 +47,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   BodyOnMap(const Problem& problem, const BodyNeeds& needs, std::vector<std::uint32_t> mesh_cell = {})
       : body_(build_body<Map, Held::by_every_dart>(problem)),
         numbering_(body_),
-        holds_{needs.bending.rigidity > 0.0,
-               needs.bending.second_neighbours > 0.0,
-               needs.contact(),
-               !needs.touches.empty(),
-               !needs.attached.empty(),
-               !needs.pressed.empty()},
-        bends_(needs.bending.rigidity),
+        has_skin_(needs.contact()),
+        has_skin_solids_(!needs.touches.empty()),
         first_cell_(needs.first_cell),
         mesh_cell_(std::move(mesh_cell)) {
     add_cell_springs(body_, problem.mesh, needs.diagonals);
@@ -66,38 +57,20 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     // only walks use the column of forces; integrators over arrays keep their own
     body_.vertices.force.clear();
     if (!needs.fixed) body_.vertices.fixed.clear();
-    // bending and contact need rest positions, also where no displacement is shown
-    if (needs.rest || holds_.any_at_rest()) body_.vertices.keep_rest();
+    if (needs.rest || needs.rest_of_forces()) body_.vertices.keep_rest();
     if (needs.pull) body_.vertices.pull.assign(body_.vertices.size(), Eigen::Vector3d(0, 0, 0));
-    if (holds_.attachments)
-      attachments_ = AttachmentsView(shared_by_mass(needs.attached, body_.vertices),
-                                     [this](std::uint32_t cell) { return mesh_cell_[cell]; });
-    if (holds_.pressed)
-      pressed_ = PressedFacesView(needs.pressed, [this](std::uint32_t cell) { return mesh_cell_[cell]; });
     rebuild_views();
     elements_ = make_elements(body_.cell_materials(), body_.elements, {nodes_.nodes, solids_.nodes, triangles_.nodes},
                               body_.cell_mass);
-    add_term(elements_);
+    forces_.add(elements_.get());
     if (!body_.cell_springs.empty()) cell_springs_ = make_cell_springs({solids_.nodes, body_.cell_springs});
-    add_term(cell_springs_);
-    if (n == 2 && holds_.bends) bending_ = make_bending(bends_.rows);
-    if (n == 2 && holds_.neighbours)
-      bending_ = make_second_neighbours(neighbours_.rows, needs.bending.second_neighbours);
-    add_term(bending_);
-    if (holds_.attachments) attachment_ = make_attachments(attachments_.rows, body_.vertices.mass);
-    add_term(attachment_);
-    if (holds_.pressed) {
-      pressure_.assign(needs.forces, 0.0);
-      terms_.push_back((face_pressure_ = std::make_unique<FacePressureTerm>(pressed_.rows, pressure_)).get());
-    }
-    if (!needs.obstacles.empty()) {
-      contact_ = make_contact(needs.obstacles, skin_.samples());
-      terms_.push_back(contact_.get());
-    }
-    if (!needs.touches.empty()) {
-      body_contact_ = std::make_unique<BodyContact>(skin_.samples(), skin_solids_.solids(), needs.touches, needs.still);
-      terms_.push_back(body_contact_.get());
-    }
+    forces_.add(cell_springs_.get());
+    forces_.make(needs.forces, {n, body_.vertices, [this](std::uint32_t cell) { return mesh_cell_[cell]; }});
+    forces_.for_each([this](BodyForce& force) { force.rebuild(&body_); });
+    forces_.touch_obstacles(needs.obstacles, skin_.samples());
+    if (has_skin_solids_)
+      forces_.touch_bodies(
+          std::make_unique<BodyContact>(skin_.samples(), skin_solids_.solids(), needs.touches, needs.still));
     fit_columns();
   }
 
@@ -108,7 +81,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   std::span<const SpringEnds> ends() const override { return ends_.ends; }
   std::span<const std::uint32_t> mesh_cell() const override { return mesh_cell_; }
   CornerRows corners() const override { return {nodes_.nodes, solids_.nodes}; }
-  ForceTerms terms() const override { return terms_; }
+  ForceTerms terms() const override { return forces_.terms(); }
 
   void follow(const TopologyChange& change) override {
     const ChangedEmbeddings changed = adapt(body_, change);
@@ -144,14 +117,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   SpringSystem system() const override {
     const bool has_springs = body_.cell_materials().has_springs();
     return system_of(body_.vertices, has_springs ? ends_.ends : std::span<const SpringEnds>(),
-                     has_springs ? SpringSpan(body_.springs) : SpringSpan(), body_.surroundings.gravity, terms_);
+                     has_springs ? SpringSpan(body_.springs) : SpringSpan(), body_.surroundings.gravity, forces_.terms());
   }
-  std::span<double> pressures() override { return pressure_; }
-  FacePressureTerm* face_pressure() override { return face_pressure_.get(); }
-  ObstacleContact* contact() override { return contact_.get(); }
-  BodyContact* body_contact() override { return body_contact_.get(); }
-  using SimulatedBody::body_contact;
-  using SimulatedBody::contact;
   std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override {
     ChangingBody<Map>& on = *this;
     return std::visit([&](const auto& action) { return ready(on, action, event.action_path()); }, event.action);
@@ -223,7 +190,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     VolumeRoom room;
     fill_columns(frame, fields, body_.vertices, system(),
                  fields.stress ? vertex_volumes(body_, corners(), room) : VertexVolumes{});
-    if (fields.contact) fill_contact(frame, contact_.get(), body_contact_.get());
+    if (fields.contact) fill_contact(frame, contact(), body_contact());
     return frame;
   }
 
@@ -231,9 +198,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   void state(Archive& archive) override {
     SimulatedBody::state(archive);
     archive(body_, numbering_, mesh_cell_, removed_mass_, face_origins_);
-    if (holds_.pressed) archive(pressure_);
     for_each_view([&archive](auto& view) { archive(view); });
-    if (contact_) archive(*contact_);
   }
 
   MemoryReport memory() const override {
@@ -261,8 +226,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
         {Part::viscosity, bytes_of(v.viscosity)},
         {Part::fixed, bytes_of(v.fixed, v.held_axes)},
         {Part::rest, bytes_of(v.rest)},
-        {Part::pull,
-         bytes_of(v.pull) + pressed_.bytes() + bytes_of(pressure_) + (face_pressure_ ? face_pressure_->bytes() : 0)},
+        {Part::pull, bytes_of(v.pull)},
         {Part::springs, body_.springs.bytes() - body_.springs.damping_bytes() + bytes_of(ends_.ends)},
         {Part::damping, body_.springs.damping_bytes()},
         {Part::elements, shapes + bytes_of(triangles_.nodes) + (elements_ ? bytes_of(nodes_.nodes) : 0) +
@@ -270,13 +234,12 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     if (cell_springs_)
       report.push_back(
           {Part::cell_springs, bytes_of(body_.cell_springs) + (of_elements ? 0 : bytes_of(solids_.nodes))});
-    if (bending_) report.push_back({Part::bending, bytes_of(bends_.rows, neighbours_.rows)});
-    if (attachment_) report.push_back({Part::attachments, attachments_.bytes()});
-    if (contact_ || body_contact_)
-      report.push_back(
-          {Part::contact,
-           skin_.bytes() + (contact_ ? contact_->bytes() : 0) +
-               (body_contact_ ? skin_solids_.bytes() + body_contact_->bytes() + bytes_of(first_cell_) : 0)});
+    forces_.report(report);
+    if (has_skin_)
+      report.push_back({Part::contact,
+                        skin_.bytes() + (contact() != nullptr ? contact()->bytes() : 0) +
+                            (has_skin_solids_ ? skin_solids_.bytes() + body_contact()->bytes() + bytes_of(first_cell_)
+                                              : 0)});
     return report;
   }
 
@@ -288,9 +251,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     for_each_column(body_.vertices, VertexColumns::embedded(), fit_column);
     for_each_column(body_, Body::embedded_in_cells(), fit_column);
     fit(body_.vertices.dart, body_.springs, body_.edge_dart, body_.face_dart, body_.cell_dart, mesh_cell_, nodes_.nodes,
-        solids_.nodes, triangles_.nodes, body_.cell_springs, bends_.rows, neighbours_.rows);
-    attachments_.shrink_to_fit();
-    pressed_.shrink_to_fit();
+        solids_.nodes, triangles_.nodes, body_.cell_springs);
+    forces_.for_each([](BodyForce& force) { force.shrink_to_fit(); });
   }
 
   /// The cells as add_cell_of has them, from the rows of a view where one has them all.
@@ -326,24 +288,15 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     }
   }
 
-  void add_term(const std::unique_ptr<ForceTerm>& term) {
-    if (term) terms_.push_back(term.get());
-  }
-  /// Calls f(view) for each view that the body holds.
+  /// Calls f(view) for each view that the body holds by itself.
   template <class F>
   void for_each_view(const F& f) {
     f(ends_);
     f(nodes_);
     f(solids_);
     f(triangles_);
-    if constexpr (n == 2) {
-      if (holds_.bends) f(bends_);
-      if (holds_.neighbours) f(neighbours_);
-    }
-    if (holds_.attachments) f(attachments_);
-    if (holds_.pressed) f(pressed_);
-    if (holds_.skin) f(skin_);
-    if (holds_.skin_solids) f(skin_solids_);
+    if (has_skin_) f(skin_);
+    if (has_skin_solids_) f(skin_solids_);
     f(components_);
   }
   void follow(const TopologyChange& change, const ChangedEmbeddings& changed) {
@@ -353,6 +306,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
       else
         view.apply(body_, changed);
     });
+    forces_.for_each([&](BodyForce& force) { force.apply(&body_, changed); });
   }
   /// Labels of components look at tetrahedra without marks, so another thread can find them meanwhile.
   void rebuild_views() {
@@ -366,7 +320,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   }
   /// Bodies in contact keep their numbers: by those of its samples, contact remembers how they stick.
   void keep_in_order(const ChangedEmbeddings& changed) {
-    if (holds_.skin) return;
+    if (has_skin_) return;
     const std::vector<std::uint32_t> number = numbering_.follow(body_, changed);
     if (number.empty()) return;
     for (std::uint32_t& vertex : tracked_)
@@ -374,6 +328,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     for_each_view([this](auto& view) {
       if constexpr (!std::is_same_v<decltype(view), ComponentLabels&>) view.rebuild(body_);  // those are of cells
     });
+    forces_.for_each([this](BodyForce& force) { force.rebuild(&body_); });
   }
 
   /// All marks of the map are idle between operations; each is taken once to read its length. The last one taken is a
@@ -389,36 +344,19 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     return bytes;
   }
 
-  /// The views that only some scenes need.
-  struct OptionalViews {
-    bool bends, neighbours, skin, skin_solids, attachments, pressed;
-    bool any_at_rest() const { return bends || neighbours || skin; }
-  };
-
   Body body_;
   Numbering numbering_;
-  OptionalViews holds_;
+  bool has_skin_, has_skin_solids_;  // views that contact needs
   SpringEndsView ends_;
   TetrahedronNodesView nodes_{Map::tetrahedral};  // of springs, or of elements that are all tetrahedra
   SolidNodesView solids_{!Map::tetrahedral};      // or of cells of any kind
   TriangleNodesView triangles_;                   // of a surface of elements, all triangles
   std::unique_ptr<ForceTerm> elements_;           // null where all are springs
   std::unique_ptr<ForceTerm> cell_springs_;       // null without diagonals
-  BendingView bends_;                             // of a surface, one of the two where it resists bending
-  SecondNeighboursView neighbours_;
-  std::unique_ptr<ForceTerm> bending_;
-  AttachmentsView attachments_;
-  std::unique_ptr<ForceTerm> attachment_;  // null without attachments
-  PressedFacesView pressed_;               // the faces that pressures follow
-  std::vector<double> pressure_;           // [Pa] by force; empty without such faces
-  std::unique_ptr<FacePressureTerm> face_pressure_;
   Skin skin_;  // the samples of its boundary, where there is contact
-  std::unique_ptr<ObstacleContact> contact_;
   std::vector<std::size_t> first_cell_;  // of each body of the scene, in its mesh
   // what its parts can be inside of, where some touch
   SkinSolidsView skin_solids_{[this](std::uint32_t cell) { return body_of_cell(first_cell_, mesh_cell_[cell]); }};
-  std::unique_ptr<BodyContact> body_contact_;
-  std::vector<const ForceTerm*> terms_;  // those that are present
   ComponentLabels components_;
   std::vector<std::uint32_t> mesh_cell_;  // by cell: its number in the mesh
   double removed_mass_ = 0.0;             // [kg]

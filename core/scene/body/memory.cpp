@@ -2,6 +2,7 @@
 
 #include "core/base/bytes.h"
 #include "core/mechanics/vertex_columns.h"
+#include "core/scene/file/force_kind.h"
 
 namespace dartboard {
 
@@ -24,8 +25,7 @@ std::string_view name(Part part) {
     case Part::cell_damping: return "damping of elements";
     case Part::damping: return "damping";
     case Part::cell_springs: return "springs within cells";
-    case Part::bending: return "bending";
-    case Part::attachments: return "attachments";
+    case Part::force: return "force";
     case Part::contact: return "contact";
     case Part::gravity: return "gravity";
     case Part::integrator: return "integrator";
@@ -41,6 +41,10 @@ std::string_view name(Part part) {
     case Part::sleeping: return "sleeping";
   }
   return "?";
+}
+
+std::string_view name_of(Part part, std::size_t which) {
+  return part == Part::force ? force_kinds()[which].name : name(part);
 }
 
 std::size_t bytes_of_vertices(const VertexColumns& vertices) {

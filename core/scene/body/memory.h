@@ -31,8 +31,7 @@ enum class Part {
   elements,      // rest shape and corners of each cell, in place of springs
   cell_damping,  // of elements, by the rate of their strain: time only
   cell_springs,  // rest lengths of the diagonals of each cell, and its corners
-  bending,       // bending elements across the edges of a surface
-  attachments,   // springs from vertices to points of cells and fixed places
+  force,         // rows of one of the kinds of core/scene/forces
   contact,       // samples of the boundary, and the obstacles
   gravity,       // a force term: time only
   integrator,    // columns kept between steps
@@ -48,11 +47,13 @@ enum class Part {
   sleeping,      // the component of each vertex
 };
 std::string_view name(Part part);
+/// For a kind of force its own name.
+std::string_view name_of(Part part, std::size_t which);
 
 struct MemoryItem {
   Part part;
   std::size_t bytes;
-  std::size_t event = 0;  // of Part::event: which one
+  std::size_t which = 0;  // event, or kind of force
 };
 using MemoryReport = std::vector<MemoryItem>;
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/scene/body/faces_under_pressure.h"
+#include "core/scene/file/force_kind.h"
 #include "core/time/integrators.h"
 
 namespace dartboard {
@@ -52,16 +52,16 @@ std::vector<std::uint8_t> bodies_held_still(const Problem& problem) {
 Needs needs_of(const SceneFile& scene, const Problem& problem) {
   BodyNeeds body = body_needs(problem, std::ranges::any_of(scene.events, changes_topology, &SceneEvent::action));
   body.diagonals = scene.diagonals;
-  body.bending = scene.bending;
-  // bending and the samples of a boundary follow a change of the map by rest positions
-  body.rest =
-      scene.output.fields.displacement || (body.topology_changes && (body.bending.any() || scene.has_contact()));
   body.pull = !std::ranges::all_of(scene.forces, &SceneForce::follows);
-  body.forces = scene.forces.size();
-  body.attached = find_attachments(scene, problem);
-  body.pressed = followed_faces(scene, problem.mesh);
+  for (std::size_t k = 0; k < force_kinds().size(); ++k)
+    if (std::optional<ForceNeed> need = force_kinds()[k].need(scene, problem)) {
+      need->kind = k;
+      body.forces.push_back(std::move(*need));
+    }
   body.obstacles = scene.obstacles;
   for (const SceneTouch& touch : scene.touches) body.touches.push_back({touch.first, touch.second, touch.law});
+  // a change of the map is followed by rest positions
+  body.rest = scene.output.fields.displacement || (body.topology_changes && body.rest_of_forces());
   if (!body.touches.empty()) {
     body.first_cell = problem.bodies.cell;
     if (scene.driven.empty() && !has<Release>(scene.events)) body.still = bodies_held_still(problem);

@@ -1,6 +1,7 @@
 #pragma once
 // The needs of a scene: the one place that decides what is assembled, and what a plan explains.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -10,9 +11,8 @@
 #include "core/contact/body_contact.h"
 #include "core/plain/diagonals.h"
 #include "core/plain/problem.h"
-#include "core/scene/body/attached_points.h"
 #include "core/scene/file/scene_file.h"
-#include "core/views/pressed_faces.h"
+#include "core/scene/forces/body_force.h"
 
 namespace dartboard {
 
@@ -31,10 +31,7 @@ struct BodyNeeds {
   bool rest = false;                       // a column of rest positions
   bool pull = false;                       // a column of external forces
   Diagonals diagonals = Diagonals::none;   // springs on those of its cells
-  Bending bending{};                       // of a surface
-  std::vector<AttachedPoints> attached{};  // one for each attachment of the scene
-  std::vector<PressedFace> pressed{};      // the faces that pressures follow
-  std::size_t forces = 0;                  // of the scene, which they are numbered by
+  std::vector<ForceNeed> forces{};         // in the order of force_kinds()
   std::vector<SceneObstacle> obstacles{};  // that its boundary may touch
   std::vector<ContactPair> touches{};      // the pairs of its parts that touch: groups are bodies of the scene
   std::vector<std::size_t> first_cell{};   // of each of these bodies, where some touch
@@ -42,6 +39,8 @@ struct BodyNeeds {
 
   /// Does its boundary have any contact?
   bool contact() const { return !obstacles.empty() || !touches.empty(); }
+  /// Does contact or some force need rest positions, if only while it is made?
+  bool rest_of_forces() const { return contact() || std::ranges::any_of(forces, &ForceNeed::rest); }
 };
 /// The needs of a problem alone; `needs_of` adds those of the rest of the scene.
 BodyNeeds body_needs(const Problem& problem, bool topology_changes);
@@ -56,7 +55,7 @@ struct Needs {
   bool stress_watch;      // some event needs the stress in every step
 };
 ///
-/// throws  InputError as find_attachments and followed_faces
+/// throws  InputError as the kinds of force
 Needs needs_of(const SceneFile& scene, const Problem& problem);
 
 }  // namespace dartboard

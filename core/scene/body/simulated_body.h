@@ -10,12 +10,10 @@
 #include <vector>
 
 #include "core/base/archive.h"
-#include "core/contact/body_contact.h"
-#include "core/contact/obstacle_contact.h"
-#include "core/forces/face_pressure.h"
 #include "core/mechanics/vertex_columns.h"
 #include "core/plain/problem.h"
 #include "core/plain/random.h"
+#include "core/scene/body/body_forces.h"
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/body/events/ready_event.h"
 #include "core/scene/body/frame.h"
@@ -43,19 +41,21 @@ class SimulatedBody {
   Motion motion() { return {vertices().position, vertices().velocity}; }
   /// The pull at each vertex [m/s^2]; empty where the body was made without it. Valid until the next event.
   std::span<Eigen::Vector3d> pull() { return vertices().pull; }
-  /// The pressures that follow their faces [Pa], by number of force, and their term; empty and null without any.
-  virtual std::span<double> pressures() = 0;
-  virtual FacePressureTerm* face_pressure() = 0;
+  /// All of its forces but those of springs.
+  const BodyForces& forces() const { return forces_; }
+  /// The values of loads that a timeline sets, pressures that follow their faces [Pa] by number of force; empty without.
+  std::span<double> loads() {
+    BodyForce* const force = forces_.with_loads();
+    return force == nullptr ? std::span<double>() : force->loads();
+  }
   /// Its contact with obstacles, and that of its parts with each other: the last terms of its system, in this order;
   /// null where the body was made without it.
-  virtual ObstacleContact* contact() = 0;
-  const ObstacleContact* contact() const { return const_cast<SimulatedBody*>(this)->contact(); }
-  virtual BodyContact* body_contact() = 0;
-  const BodyContact* body_contact() const { return const_cast<SimulatedBody*>(this)->body_contact(); }
+  ObstacleContact* contact() { return forces_.obstacles(); }
+  const ObstacleContact* contact() const { return forces_.obstacles(); }
+  BodyContact* body_contact() { return forces_.bodies(); }
+  const BodyContact* body_contact() const { return forces_.bodies(); }
   /// The terms without those of contact.
-  ForceTerms terms_but_contact(ForceTerms terms) const {
-    return terms.first(terms.size() - (contact() != nullptr ? 1 : 0) - (body_contact() != nullptr ? 1 : 0));
-  }
+  ForceTerms terms_but_contact(ForceTerms terms) const { return forces_.terms_but_contact(terms); }
 
   /// Follow a vertex from now on, whatever number it takes: `tracked` grows by one. Tracking does not change the body.
   virtual void track(std::uint32_t vertex) { tracked_.push_back(vertex); }
@@ -88,12 +88,16 @@ class SimulatedBody {
   /// The first condition of a generalized map that does not hold; empty for a valid one.
   virtual std::string violation() const = 0;
   /// Writes all that steps and events change, or reads it into a body made of the same scene.
-  virtual void state(Archive& archive) { archive(tracked_); }
+  virtual void state(Archive& archive) {
+    archive(tracked_);
+    forces_.state(archive);
+  }
   /// The memory that its parts take now.
   virtual MemoryReport memory() const = 0;
 
  protected:
   std::vector<std::uint32_t> tracked_;
+  BodyForces forces_;
 };
 
 /// The system of a body whose vertices have these columns.

@@ -1,4 +1,5 @@
 #include "core/scene/file/beyond_numbers.h"
+#include "core/scene/file/force_kind.h"
 
 #include <fmt/format.h>
 
@@ -53,7 +54,9 @@ std::string key_beyond_numbers(const SceneFile& scene, const Mesh& mesh) {
                                        {"/acceleration", force.acceleration},
                                        {"/torque", force.torque}})
         if (value) all.push_back({force.path + key, value->lpNorm<Eigen::Infinity>()});
-  for (const SceneAttachment& one : scene.attachments) all.push_back({one.path + "/stiffness", one.stiffness});
+  for (const ForceKind& kind : force_kinds())
+    if (kind.for_each_number != nullptr)
+      kind.for_each_number(scene, [&all](const std::string& path, double size) { all.push_back({path, size}); });
   for (const SceneObstacle& one : scene.obstacles)
     all.insert(all.end(), {{one.path + "/pressure", one.law.pressure}, {one.path + "/depth", one.law.depth}});
   for (const SceneTouch& touch : scene.touches) {

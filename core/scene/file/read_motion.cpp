@@ -109,20 +109,6 @@ SceneForce read_force(const SceneValue& value, const SceneFile& scene) {
   return force;
 }
 
-SceneAttachment read_attachment(const SceneValue& value, const SceneFile& scene) {
-  SceneAttachment attachment{.vertices = read_vertices(value),
-                             .to = value.find<std::uint32_t>("to"),
-                             .stiffness = value.get<double>("stiffness"),
-                             .path = value.path()};
-  if (!attachment.to) return attachment;
-  if (!std::holds_alternative<BodyList>(scene.body.mesh))
-    value.fail_at("to", fmt::format("is {} without /bodies", *attachment.to), "several bodies, or no such key");
-  if (*attachment.to >= scene.bodies().size())
-    value.fail_at("to", fmt::format("is {}", *attachment.to),
-                  fmt::format("the number of a body, less than {}", scene.bodies().size()));
-  return attachment;
-}
-
 SceneEvent read_event(const SceneValue& value, const SceneFile& scene) {
   SceneEvent event{.action = {}, .from = 0.0, .until = 0.0, .every = value.find<double>("every"), .path = value.path()};
   if (const auto at = value.find<double>("at")) {

@@ -19,7 +19,6 @@ SceneSleep read_sleep(const SceneValue& value);
 // `scene` has what these depend on: its duration, step, accuracy, bodies and materials
 SceneDrive read_drive(const SceneValue& value, const SceneFile& scene);
 SceneForce read_force(const SceneValue& value, const SceneFile& scene);
-SceneAttachment read_attachment(const SceneValue& value, const SceneFile& scene);
 SceneEvent read_event(const SceneValue& value, const SceneFile& scene);
 /// Obstacles and touches are added to the scene.
 void read_contact(const SceneValue& value, SceneFile& scene);

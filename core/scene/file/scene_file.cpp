@@ -8,6 +8,7 @@
 
 #include "core/base/overloads.h"
 #include "core/plain/error.h"
+#include "core/scene/file/force_kind.h"
 #include "core/scene/file/keys/scene_check.h"
 #include "core/scene/file/keys/scene_value.h"
 #include "core/scene/file/keys/strict_json.h"
@@ -49,16 +50,13 @@ void read(const SceneValue& value, SceneFile& scene) {
     if (!value.json().at(SceneValue::Json::json_pointer(tissue.path)).contains("model"))
       scene.without_model.push_back(tissue.path);
   scene.diagonals = value.at("diagonals").one_of<Diagonals>(diagonals_names);
-  if (value.has("bending"))
-    scene.bending = {.rigidity = value.at("bending").find<double>("rigidity").value_or(0.0),
-                     .second_neighbours = value.at("bending").find<double>("second_neighbours").value_or(0.0)};
   scene.gravity = value.get<Eigen::Vector3d>("gravity");
   scene.initial_velocity = read_velocity(value.at("initial_velocity"));
   for (const SceneValue& held : value.at("fixed").entries()) scene.fixed.push_back(HeldSelection::read(held));
   for (const SceneValue& drive : value.at("driven").entries()) scene.driven.push_back(read_drive(drive, scene));
   for (const SceneValue& force : value.at("forces").entries()) scene.forces.push_back(read_force(force, scene));
-  for (const SceneValue& one : value.at("attachments").entries())
-    scene.attachments.push_back(read_attachment(one, scene));
+  for (const ForceKind& kind : force_kinds())
+    if (kind.read != nullptr) kind.read(value, scene);
   if (value.has("contact")) read_contact(value.at("contact"), scene);
   scene.integrator = value.find<std::string>("integrator").value_or(scene.accuracy ? "" : standard_integrator);
   scene.solver = value.find<std::string>("solver").value_or("");

@@ -161,6 +161,12 @@ struct SceneAttachment {
   std::string path;                 // "/attachments/3"
 };
 
+/// What resists the motion of every face along its normal.
+struct Air {
+  double drag = 0.0;                  // [N s/m^3] force per area and per relative speed
+  Eigen::Vector3d velocity{0, 0, 0};  // [m/s]
+};
+
 /// An obstacle for the body, and the law of the contact with it.
 struct SceneObstacle {
   Obstacle obstacle;
@@ -241,6 +247,7 @@ struct SceneFile {
   std::vector<SceneDrive> driven;
   std::vector<SceneForce> forces;
   std::vector<SceneAttachment> attachments;
+  std::optional<Air> air;
   std::vector<SceneObstacle> obstacles;  // without any, and without touches, there is no contact
   std::vector<SceneTouch> touches;       // each pair once, in ascending order
   // exactly one of step and accuracy is given; before it is simulated, a scene that asks for an accuracy gets a step,

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/plain/error.h"
+#include "core/scene/file/force_kind.h"
 #include "core/time/integrators.h"
 
 namespace dartboard {
@@ -60,6 +61,8 @@ std::string key_that_changes_energy(const SceneFile& scene) {
   if (!scene.driven.empty()) return "/driven";
   if (!scene.events.empty()) return "/events";
   if (scene.sleep) return "/sleep";
+  for (const ForceKind& kind : force_kinds())
+    if (kind.changes_energy && kind.is_in(scene)) return fmt::format("/{}", kind.name);
   for (const SceneFile::Tissue& tissue : scene.tissues())
     if (tissue.material.damping_time > 0.0) return tissue.path + "/damping";
   for (const SceneObstacle& one : scene.obstacles) {

@@ -10,6 +10,7 @@
 #include "core/mechanics/curve_order.h"
 #include "core/plain/material.h"
 #include "core/scene/body/diagnostics.h"
+#include "core/scene/file/force_kind.h"
 #include "core/scene/file/keys/scene_keys.h"
 #include "core/scene/file/scene_materials.h"
 #include "core/scene/file/scene_problem.h"
@@ -154,8 +155,8 @@ class Planner {
     if (plan_.needs.body.rest)
       add(Part::rest, "place at rest by vertex",
           scene_.output.fields.displacement ? "/output/fields: frames show 'displacement'"
-          : scene_.bending.any()            ? "/bending: follows changes of the map by it"
-                                            : "/contact: areas of the surface follow changes of the map by it");
+          : scene_.has_contact()            ? "/contact: areas of the surface follow changes of the map by it"
+                                            : fmt::format("{}: follows changes of the map by it", force_at_rest()));
     else
       leave_out("column of places at rest", "/output/fields: without 'displacement'");
   }
@@ -201,8 +202,11 @@ class Planner {
       add(Part::springs, fmt::format("{} springs: rest length, stiffness, two ends", n.edges),
           source_of(scene_) + "; " + elasticity());
     }
-    springs_beside_edges();
-    attachments();
+    springs_within_cells();
+    for (const ForceNeed& need : plan_.needs.body.forces) {
+      add(Part::force, need.what, need.why);
+      plan_.items.back().which = need.kind;
+    }
     const std::string damping =
         materials.is_one() ? setting_in_words("/material/damping", Shape::material, "damping", materials[0].damping)
                            : materials_in_words();
@@ -218,27 +222,23 @@ class Planner {
     const Eigen::Vector3d& g = scene_.gravity;
     const std::string gravity =
         setting_in_words("/gravity", Shape::scene, "gravity", nlohmann::json::array({g[0], g[1], g[2]}));
-    const std::size_t pressed = plan_.needs.body.pressed.size();
     if (scene_.forces.empty())
       leave_out("column and term of forces from outside", "/forces: not given");
     else
       add(Part::pull,
-          (plan_.needs.body.pull ? "by vertex, its share of the external forces; added together with gravity" : "") +
-              (pressed == 0 ? ""
-                            : fmt::format("{}{} under pressure, and their term of the force loop",
-                                          plan_.needs.body.pull ? "; " : "", counted(pressed, "face"))),
-          fmt::format("/forces: {}{}{}", scene_.forces.size(),
+          plan_.needs.body.pull ? "by vertex, its share of the external forces; added together with gravity"
+                                : "the times of external forces",
+          fmt::format("/forces: {}{}", scene_.forces.size(),
                       std::ranges::all_of(scene_.forces, [](const SceneForce& f) { return f.factor.empty(); })
                           ? ""
-                          : "; over_time: set anew in every step, and their work is summed",
-                      pressed == 0 ? "" : "; current normals: their work is summed"));
+                          : "; over_time: set anew in every step, and their work is summed"));
     if (plan_.needs.gravity)
       add(Part::gravity, "added where forces are divided by masses", gravity);
     else
       leave_out("gravity (its addition of zero stays)", gravity);
   }
 
-  void springs_beside_edges() {
+  void springs_within_cells() {
     const CellCounts& n = plan_.counts;
     const CellMaterials materials = problem_.cell_materials();
     if (scene_.diagonals != Diagonals::none) {
@@ -249,25 +249,11 @@ class Planner {
       add(Part::cell_springs, fmt::format("{} springs within {} cells: rest lengths, corners", springs, n.cells),
           setting_in_words("/diagonals", Shape::scene, "diagonals", std::string(name(scene_.diagonals))));
     }
-    if (scene_.bending.rigidity > 0.0)
-      add(Part::bending, fmt::format("{} edges: four vertices and their coefficients", n.edges),
-          fmt::format("/bending/rigidity: {}", scene_.bending.rigidity));
-    if (scene_.bending.second_neighbours > 0.0)
-      add(Part::bending, fmt::format("{} edges: second neighbours across each, rest lengths", n.edges),
-          fmt::format("/bending/second_neighbours: {}", scene_.bending.second_neighbours));
   }
-
-  void attachments() {
-    if (scene_.attachments.empty()) return;
-    std::string held, why;
-    for (std::size_t k = 0; k < scene_.attachments.size(); ++k) {
-      const SceneAttachment& one = scene_.attachments[k];
-      const std::size_t count = plan_.needs.body.attached[k].points.size();
-      held += fmt::format("{}{} {} to {}", k == 0 ? "" : ", ", count, count == 1 ? "vertex" : "vertices",
-                          one.to ? fmt::format("body {}", *one.to) : "fixed places");
-      why += fmt::format("{}{}/stiffness: {}", k == 0 ? "" : "; ", one.path, one.stiffness);
-    }
-    add(Part::attachments, fmt::format("springs without length: {}", held), why);
+  /// The key of a force that needs places at rest.
+  std::string force_at_rest() const {
+    const auto found = std::ranges::find_if(plan_.needs.body.forces, &ForceNeed::rest);
+    return fmt::format("/{}", force_kinds()[found->kind].name);
   }
 
   void contact() {
@@ -344,7 +330,7 @@ class Planner {
     what += std::holds_alternative<TearWhereStressed>(e.action) ? ": the stress of every vertex"
                                                                 : fmt::format(", some {:.0f} operations", f.operations);
     add(Part::event, std::move(what), e.action_path());
-    plan_.items.back().event = k;
+    plan_.items.back().which = k;
   }
 
   void output() {
@@ -481,7 +467,7 @@ MemoryReport measured_memory(const SceneFile& scene) {
 void add_bytes(ScenePlan& plan, const MemoryReport& found) {
   for (const MemoryItem& memory : found) {
     const auto item = std::ranges::find_if(plan.items, [&memory](const PlanItem& planned) {
-      return planned.part == memory.part && planned.event == memory.event;
+      return planned.part == memory.part && planned.which == memory.which;
     });
     if (item != plan.items.end())
       item->bytes += memory.bytes;

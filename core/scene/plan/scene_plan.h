@@ -21,7 +21,9 @@ struct PlanItem {
   std::string what;       // "48 bytes of mass, position ... by vertex"
   std::string why;        // "/material/damping: 0.05"
   std::size_t bytes = 0;  // as Part says; of the built body (add_bytes)
-  std::size_t event = 0;  // of Part::event: which one
+  std::size_t which = 0;  // event, or kind of force
+
+  std::string_view name() const { return name_of(part, which); }
 };
 
 /// One part that will not be built, because no key requires it.

@@ -115,7 +115,7 @@ Simulation::Simulation(const SceneFile& scene)
       if (const auto facets = timeline_->schedule(event)) count_cut(event, problem.mesh, *facets);
     timeline_->happen(0);
     timeline_->drive(0.0, end_of_part(0.0, step_));
-    if (timeline_->sums_work()) applied_ = potential_ = pull_energy(body_->system(), body_->vertices().position);
+    if (sums_work()) applied_ = potential_ = pull_energy(body_->system(), body_->vertices().position);
     if (contact_) contact_->start(body_->vertices().position, expected->obstacles, expected->bodies, step_);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
@@ -162,7 +162,7 @@ std::optional<EarlyEnd> Simulation::take_step() {
     return diverged({"stress", stress ? stress->vertex : 0, body_->largest_stress()}, this->operations() == operations);
   };
   StepResult result = watch_.before();
-  remember_pressed_faces();
+  begin_work(static_cast<double>(done_) * step_);
   try {
     if (result.ok()) result = exact_events_ ? step_in_parts() : integrate(static_cast<double>(done_) * step_, step_);
   } catch (const StressError& error) {
@@ -175,7 +175,7 @@ std::optional<EarlyEnd> Simulation::take_step() {
   if (const auto fault = watch_.after_step(result, done_, is_last, work, stepped_system(), stepped_motion()))
     return diverged(of_body(*fault));
   if (is_last) examine_coordinates();
-  add_work_of_forces();
+  add_work_of_forces(static_cast<double>(done_) * step_);
   try {
     const std::size_t before = this->operations();
     timeline_->happen(done_);
@@ -302,11 +302,12 @@ StepResult Simulation::step_in_parts() {
     result = integrate(now, *next - now);
     if (!result.ok()) return result;
     now = *next;
-    add_work_of_forces();
+    add_work_of_forces(now);
     const std::size_t operations = this->operations();
     timeline_->happen_until(now);
-    if (go_on(this->operations() != operations, now, end_of_part(now, end)) == Change::none) continue;
-    remember_pressed_faces();
+    const Change change = go_on(this->operations() != operations, now, end_of_part(now, end));
+    begin_work(now);
+    if (change == Change::none) continue;
     result = watch_.changed_within_step(stepped_system(), stepped_motion());
     if (!result.ok()) return result;
     watch_.keeps_within_step(done_, now - static_cast<double>(done_) * step_);
@@ -324,7 +325,7 @@ Simulation::Change Simulation::go_on(bool operated, double now, double until) {
   const bool wakes = sleeping_ && (operated                    ? sleeping_->body_changed()
                                    : loads != LoadChange::none ? sleeping_->loads_changed()
                                                                : false);
-  if (timeline_->sums_work()) potential_ = pull_energy(body_->system(), body_->vertices().position);
+  if (sums_work()) potential_ = pull_energy(body_->system(), body_->vertices().position);
   if (wakes) step_another_part();
   if (loads == LoadChange::begins_or_ends || operated) examine_step();
   if (wakes) return Change::of_what_is_stepped;
@@ -341,17 +342,19 @@ std::uint32_t Simulation::file_number(std::uint32_t vertex) const {
   return file_number_.empty() ? point[vertex] : file_number_[point[vertex]];
 }
 
-void Simulation::remember_pressed_faces() {
-  if (FacePressureTerm* const pressure = body_->face_pressure()) pressure->begin_step(body_->vertices().position);
+bool Simulation::sums_work() const { return timeline_->sums_work() || body_->forces().do_work(); }
+
+void Simulation::begin_work(double now) {
+  work_from_ = now;
+  body_->forces().begin_work(body_->vertices().position);
 }
 
-// In a step, or a part of one, forces are constant, so their work is the change of their potential; that of pressures
-// on faces is added.
-void Simulation::add_work_of_forces() {
-  if (!timeline_->sums_work()) return;
-  const FacePressureTerm* const pressure = body_->face_pressure();
-  const double of_pressures = pressure ? pressure->work(body_->vertices().position) : 0.0;
-  applied_ += pull_energy(body_->system(), body_->vertices().position) - potential_ - of_pressures;
+// In a step, or a part of one, pulls are constant, so their work is the change of their potential; that of forces that
+// have none is added.
+void Simulation::add_work_of_forces(double now) {
+  if (!sums_work()) return;
+  const auto& x = body_->vertices().position;
+  applied_ += pull_energy(body_->system(), x) - potential_ - body_->forces().work(x, now - work_from_);
 }
 
 Diagnostics Simulation::diagnostics(std::optional<double> largest_stress) const {
@@ -366,7 +369,10 @@ Diagnostics Simulation::diagnostics(std::optional<double> largest_stress) const 
   d.kinetic = kinetic_energy(system, v.velocity);
   d.elastic = elastic_energy(system, v.position);
   d.gravitational = gravity_energy(system, v.position);
-  if (timeline_->has_forces()) d.applied = timeline_->sums_work() ? applied_ : pull_energy(system, v.position);
+  if (sums_work())
+    d.applied = applied_;
+  else if (timeline_->has_forces())
+    d.applied = pull_energy(system, v.position);
   d.momentum = linear_momentum(system, v.velocity);
   d.angular_momentum = angular_momentum(system, v.position, v.velocity);
   d.mass = body_->mass();

@@ -140,8 +140,9 @@ class Simulation {
   Change go_on(bool operated, double now, double until);
   void state(Archive& archive);
   void examine_step();
-  void remember_pressed_faces();
-  void add_work_of_forces();
+  bool sums_work() const;
+  void begin_work(double now);
+  void add_work_of_forces(double now);
   void examine_coordinates();
   void examine_before_run();
   Fault of_body(Fault fault) const;
@@ -163,6 +164,7 @@ class Simulation {
   bool within_step_ = false;  // after the first part of a step that is divided
   // [J] minus the work of forces that change in time up to the last change of them, and their potential there
   double applied_ = 0.0, potential_ = 0.0;
+  double work_from_ = 0.0;  // [s] when the work began that is added next
   std::optional<CoordinatePrecision> coarse_;
   std::vector<StepResult> warnings_;
   int dimension_ = 0;

@@ -97,7 +97,7 @@ void Sleeping::find_components() {
     c.near = near_share * c.size;
   }
   update<Vector3d>(pull_, body_.pull());
-  update<double>(pressures_, body_.pressures());
+  update<double>(pressures_, body_.loads());
   if (const ObstacleContact* contact = body_.contact()) update(obstacles_, contact->moved());
 }
 
@@ -212,7 +212,7 @@ bool Sleeping::body_changed() {
 }
 
 bool Sleeping::loads_changed() {
-  const bool others = update<double>(pressures_, body_.pressures());
+  const bool others = update<double>(pressures_, body_.loads());
   const VertexColumns& v = body_.vertices();
   bool any = false;
   const auto wake_at = [&](std::uint32_t vertex) {
@@ -226,8 +226,10 @@ bool Sleeping::loads_changed() {
     const bool is_driven = done_.asleep > 0 && components_[component_[i]].asleep && !v.velocity[i].isZero(0.0);
     if (is_driven || (!pull_.empty() && pull_[i] != v.pull[i])) wake_at(i);
   }
-  if (others)
-    for (const PressedFace& face : body_.face_pressure()->rows()) wake_at(face.corner[0]);
+  if (others) {
+    const ForceTerm& loaded = body_.forces().with_loads()->term();
+    for (std::size_t piece = 0; piece < loaded.size(); ++piece) wake_at(loaded.nodes(piece)[0]);
+  }
   update<Vector3d>(pull_, body_.pull());
   if (any)
     make_part();

@@ -12,7 +12,7 @@
 
 #include "core/base/bytes.h"
 #include "core/plain/error.h"
-#include "core/scene/body/faces_under_pressure.h"
+#include "core/scene/forces/faces_under_pressure.h"
 #include "core/scene/timeline/table_times.h"
 
 namespace dartboard {

@@ -62,7 +62,7 @@ void Timeline::apply(Scheduled& scheduled) {
 // No integrator keeps anything that the values of forces are in.
 LoadChange Timeline::drive(double begin, double end) {
   const LoadChange driven = driven_.apply(begin, end, body_.vertices().point, body_.motion().v);
-  const LoadChange forces = forces_.apply(begin, end, body_.vertices().point, body_.pull(), body_.pressures());
+  const LoadChange forces = forces_.apply(begin, end, body_.vertices().point, body_.pull(), body_.loads());
   if (driven == LoadChange::begins_or_ends || forces == LoadChange::begins_or_ends)
     integrator_.restart();
   else if (driven == LoadChange::in_value)

@@ -91,7 +91,7 @@ void damping_of_terms(const SpringSystem& system, const TermTangents& tangents, 
     }
     const auto add = assembly.add_times([damping](std::size_t piece) { return damping->time(piece); });
     if (tangents.kind == TermTangents::Kind::constant)
-      term->for_each_constant_tangent(add);
+      damping->is_viscous() ? damping->for_each_constant_tangent(add) : term->for_each_constant_tangent(add);
     else
       damping->for_each_tangent(tangents.at, add);
   }
@@ -101,7 +101,7 @@ void stiffness_of_stress(const SpringSystem& system, const TermTangents& tangent
   Assembly assembly(system, matrix);
   for (const ForceTerm* term : system.terms) {
     const TermDamping* damping = term->damping();
-    if (damping == nullptr) {
+    if (damping == nullptr || damping->is_viscous()) {
       assembly.pass(*term);
       continue;
     }

@@ -53,6 +53,7 @@ Bounds damping_times(const SpringSystem& system) {
   }
   for (const ForceTerm* term : system.terms) {
     const TermDamping* damping = term->damping();
+    if (damping != nullptr && damping->is_viscous()) continue;
     for (std::size_t piece = 0; piece < (damping == nullptr ? 0 : term->size()); ++piece) {
       b.lower = std::min(b.lower, damping->time(piece));
       b.upper = std::max(b.upper, damping->time(piece));
@@ -63,7 +64,8 @@ Bounds damping_times(const SpringSystem& system) {
   return b;
 }
 
-// Dampers without a spring belong here: their rates are between 0 and Gershgorin's bound of their matrix per mass.
+// Dampers without a spring and viscous terms belong here: their rates are between 0 and Gershgorin's bound of their
+// matrix per mass, of terms near rest.
 Bounds viscous_rates(const SpringSystem& system) {
   std::vector<double> dampers;
   for (std::size_t s = 0; s < system.springs.size(); ++s) {
@@ -72,6 +74,15 @@ Bounds viscous_rates(const SpringSystem& system) {
     dampers.resize(system.vertex_count(), 0.0);
     for (const auto i : system.ends[s]) dampers[i] += 2.0 * spring.damping;
   }
+  for (const ForceTerm* term : system.terms)
+    if (const TermDamping* damping = term->damping(); damping != nullptr && damping->is_viscous()) {
+      dampers.resize(system.vertex_count(), 0.0);
+      damping->for_each_constant_tangent([&](ForceTerm::Nodes nodes, std::span<const Eigen::Matrix3d> blocks) {
+        for (std::size_t a = 0; a < nodes.size(); ++a)
+          for (std::size_t b = 0; b < nodes.size(); ++b)
+            dampers[nodes[a]] += std::abs(blocks[a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b](0, 0));
+      });
+    }
   Bounds b{unlimited, 0.0};
   for (std::size_t i = 0; i < system.vertex_count(); ++i) {
     if (system.fixed[i]) continue;
@@ -301,9 +312,15 @@ const StableStep& StableStepEstimate::refresh(const SpringSystem& system, std::s
   Bounds squared = largest_eigenvalue(stiffness, random_, excess);
   squared.lower = std::max(squared.lower, power_iteration(stiffness));
   latest_.across = across_bound(system, tangents_);
-  if (has_damped_terms(system))
+  const auto has = [&system](bool strain_damping) {
+    return std::ranges::any_of(system.terms, [strain_damping](const ForceTerm* term) {
+      const TermDamping* damping = term->damping();
+      return strain_damping ? damping != nullptr && !damping->is_viscous() : damping == nullptr;
+    });
+  };
+  if (has(true))
     allow_for_stress(system, x);
-  else if (!system.terms.empty())
+  else if (has(false))
     latest_.across = unlimited;  // elements have no direction as springs have
   latest_.lower = scale_frequency_ * std::sqrt(std::max(0.0, squared.lower * (1.0 - rounding)));
   latest_.upper = std::min(scale_frequency_, scale_frequency_ * std::sqrt(std::max(0.0, squared.upper + rounding)));

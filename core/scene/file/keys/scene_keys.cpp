@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -51,15 +52,6 @@ std::vector<SceneKey> keys_by_hand() {
                "hexahedra, prisms, pyramids and quadrilaterals, which edges alone do not (those through the volume alone "
                "do not either); with 'young' in the material, cubes then are an elastic solid of Poisson's ratio 1/4, "
                "squares a sheet of 1/3. Cells made of elements have no diagonals"},
-      {.shape = scene, .name = "bending", .type = object, .of = bending, .help = "what resists the bending of a surface"},
-      {.shape = bending, .name = "rigidity", .type = real, .unit = "N m", .range = not_negative,
-       .help = "flexural rigidity of a flat sheet of triangles, E h^3 / (12 (1 - nu^2)) of a plate of thickness h: energy "
-               "that is quadratic in the bend of each edge, with a constant matrix. Exact on triangles with equal sides; "
-               "squares halved have it along their sides, and thrice that along one diagonal"},
-      {.shape = bending, .name = "second_neighbours", .type = real, .unit = "N/m", .range = not_negative,
-       .help = "stiffness of springs between second neighbours, as Provot has them: between the two corners across an edge "
-               "of triangles, along the lines of a mesh of quadrilaterals. They have no linear bending stiffness: their "
-               "energy goes with the fourth power of the curvature, so take them for the paper, not for numbers"},
       {.shape = scene, .name = "gravity", .type = point, .unit = "m/s^2", .standard = "[0, 0, -9.81]",
        .help = "acceleration of gravity"},
       {.shape = scene, .name = "initial_velocity", .type = point_or_object, .of = velocity, .unit = "m/s",
@@ -71,8 +63,6 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "vertices that are moved along, whatever acts on them"},
       {.shape = scene, .name = "forces", .type = objects, .of = force, .standard = "[]",
        .help = "forces from outside on some of the vertices"},
-      {.shape = scene, .name = "attachments", .type = objects, .of = attachment, .standard = "[]",
-       .help = "vertices that springs hold to a body or to the places where they are at rest"},
       {.shape = scene, .name = "contact", .type = object, .of = contact,
        .help = "contact of bodies with obstacles, with each other and with themselves; of chains with obstacles. "
                "Without it bodies pass through each other and through themselves"},
@@ -300,11 +290,6 @@ std::vector<SceneKey> keys_by_hand() {
        .help = "time it begins at"},
       {.shape = force, .name = "until", .type = real, .unit = "s", .range = positive,
        .help = "time it ends at; left out, it lasts to the end"},
-      {.shape = attachment, .name = "to", .type = integer, .range = number,
-       .help = "the body that they are attached to, by its place in 'bodies', counted from 0; selected vertices of that body "
-               "are not held. Left out, they are held to the places where they are at rest"},
-      {.shape = attachment, .name = "stiffness", .type = real, .unit = "N/m", .range = positive, .required = true,
-       .help = "of all springs together, shared in proportion to the masses of the vertices"},
       {.shape = contact, .name = "pressure", .type = real, .unit = "Pa", .range = positive, .required = true,
        .help = "that a contact carries at the depth; it grows with the depth to the power exponent - 1"},
       {.shape = contact, .name = "depth", .type = real, .unit = "m", .range = positive, .required = true,
@@ -518,7 +503,10 @@ std::vector<SceneKey> keys_by_hand() {
 }
 
 std::vector<SceneKey> make_keys() {
-  const std::vector<SceneKey> by_hand = keys_by_hand();
+  std::vector<SceneKey> by_hand = keys_by_hand();
+  const auto forces = std::ranges::find(by_hand, "forces", &SceneKey::name);
+  const KeyRows others = keys_of_forces();
+  by_hand.insert(std::next(forces), others.keys.begin(), others.keys.end());
   std::vector<SceneKey> keys;
   // the keys of one shape under another, too: all but one, or those from one on
   const auto add = [&](Shape shape, Shape as, std::string_view but = "", std::string_view from = "") {
@@ -551,8 +539,10 @@ std::string range_text(const Range& range) {
 
 }  // namespace
 
-std::span<const ShapeHelp> scene_shapes() {
-  static constexpr ShapeHelp shapes[] = {
+namespace {
+
+std::vector<ShapeHelp> shapes_by_hand() {
+  return {
       {Shape::scene, "scene", "The whole file. Lengths in metres, times in seconds, SI units throughout."},
       {Shape::body, "body", "The mesh that the body is at rest in. Tetrahedra alone get the tetrahedral storage."},
       {Shape::one_body, "one_body",
@@ -572,7 +562,6 @@ std::span<const ShapeHelp> scene_shapes() {
        "The material of some of the cells: what a 'material' has, except the viscosity, which is that of what "
        "surrounds everything."},
       {Shape::region, "region", "Some of the cells, and their material."},
-      {Shape::bending, "bending", "What resists the bending of a surface: by its rigidity, or by springs."},
       {Shape::damping, "damping",
        "The damping of elements by the rate of their strain (Kelvin and Voigt): ratio / (pi frequency) times their "
        "elasticity. No motion as a whole is damped, however the body turns. The higher a frequency the more it is damped, "
@@ -595,14 +584,6 @@ std::span<const ShapeHelp> scene_shapes() {
        "on: parts of a vertex that comes apart share it in proportion to their masses, and what loses cells loses their "
        "share. What of it acts on fixed or driven vertices is borne by what holds them."},
       {Shape::force_factor, "force_factor", "A factor of a force, and when."},
-      {Shape::attachment, "attachment",
-       "Springs without length and without damping, one for each of some vertices. Each is attached to the point of a "
-       "body, or of space, where the vertex is at rest, so that at rest there is no force. In a body that point is in "
-       "the cell that the vertex is in or nearest to, no farther away than the longest edge of that cell, and moves "
-       "with a tetrahedron (of a surface a triangle) of it; to be attached to a surface, a vertex lies in the plane of "
-       "such a triangle. Momentum is kept, also where a fixed or driven vertex is attached. Parts of a vertex that "
-       "comes apart share its spring in proportion to their masses, what loses cells loses their share, and a cell "
-       "that is removed takes what is attached to it along. Not with refinement."},
       {Shape::contact, "contact",
        "Contact of the surface of bodies with obstacles, and of solids with solids: of a solid its boundary, cuts included, "
        "of a surface all of it, from both sides. It is felt at the vertices and in the middles of faces, each by its share of the area at rest, and "
@@ -648,6 +629,18 @@ std::span<const ShapeHelp> scene_shapes() {
       {Shape::expect, "expect", "What must be true at the end."},
       {Shape::expected_place, "expected_place", "Where a probe, or the part of the body that it is in, is at the end."},
   };
+}
+
+}  // namespace
+
+std::span<const ShapeHelp> scene_shapes() {
+  static const std::vector<ShapeHelp> shapes = [] {
+    std::vector<ShapeHelp> all = shapes_by_hand();
+    const KeyRows others = keys_of_forces();
+    all.insert(all.end(), others.shapes.begin(), others.shapes.end());
+    std::ranges::sort(all, {}, &ShapeHelp::shape);
+    return all;
+  }();
   return shapes;
 }
 
@@ -670,44 +663,47 @@ const SceneKey* find_key(Shape shape, std::string_view name) {
 
 std::span<const SceneRule> scene_rules() {
   using enum SceneRule::Kind;
-  static const std::vector<SceneRule> rules{
-      {exactly_one, Shape::scene, {"step", "accuracy"}},
-      {exactly_one, Shape::scene, {"body", "bodies"}},
-      {exactly_one, Shape::one_body, {"mesh", "generate"}},
-      {exactly_one, Shape::body, {"mesh", "generate"}},
-      {exactly_one, Shape::generate, {"box", "sheet", "ball", "chain"}},
-      {at_most_one, Shape::material, {"stiffness", "young"}},
-      {excludes, Shape::material, {"poisson", "stiffness"}},
-      {needs_object, Shape::material, {"poisson", "damping"}},
-      {at_most_one, Shape::tissue, {"stiffness", "young"}},
-      {excludes, Shape::tissue, {"poisson", "stiffness"}},
-      {needs_object, Shape::tissue, {"poisson", "damping"}},
-      {exactly_one, Shape::bending, {"rigidity", "second_neighbours"}},
-      {exactly_one, Shape::vertex_selection, {"ids", "box", "plane", "sphere", "around"}},
-      {exactly_one, Shape::held, {"ids", "box", "plane", "sphere", "around"}},
-      {exactly_one, Shape::driven, {"ids", "box", "plane", "sphere", "around"}},
-      {exactly_one, Shape::force, {"ids", "box", "plane", "sphere", "around"}},
-      {exactly_one, Shape::driven, {"velocity", "path", "turn"}},
-      {excludes, Shape::driven, {"path", "from", "until", "reverse_every"}},
-      {excludes, Shape::driven, {"turn", "from", "until", "reverse_every"}},
-      {exactly_one, Shape::force, {"force", "traction", "pressure", "acceleration", "torque"}},
-      {excludes, Shape::force, {"pressure", "on"}},
-      {excludes, Shape::force, {"acceleration", "on"}},
-      {excludes, Shape::force, {"torque", "on"}},
-      {exactly_one, Shape::attachment, {"ids", "box", "plane", "sphere", "around"}},
-      {exactly_one, Shape::obstacle, {"plane", "sphere", "box"}},
-      {exactly_one, Shape::probe, {"vertex", "near"}},
-      {exactly_one, Shape::cell_selection, {"ids", "box", "plane", "sphere", "around", "random", "tag"}},
-      {exactly_one, Shape::tag, {"value", "named"}},
-      {exactly_one, Shape::event, {"dissociate", "remove", "tear", "tear_where_stressed", "refine", "release"}},
-      {excludes, Shape::event, {"at", "every", "from", "until"}},
-      {exactly_one, Shape::dissociate, {"points", "plane", "blade"}},
-      {excludes, Shape::dissociate, {"points", "within"}},
-      {excludes, Shape::dissociate, {"blade", "within"}},
-      {exactly_one, Shape::within, {"box", "sphere", "around", "polygon"}},
-      {exactly_one, Shape::tear, {"vertex", "near"}},
-      {at_most_one, Shape::expect, {"components", "components_at_least"}},
-  };
+  static const std::vector<SceneRule> rules = [] {
+    std::vector<SceneRule> all{
+        {exactly_one, Shape::scene, {"step", "accuracy"}},
+        {exactly_one, Shape::scene, {"body", "bodies"}},
+        {exactly_one, Shape::one_body, {"mesh", "generate"}},
+        {exactly_one, Shape::body, {"mesh", "generate"}},
+        {exactly_one, Shape::generate, {"box", "sheet", "ball", "chain"}},
+        {at_most_one, Shape::material, {"stiffness", "young"}},
+        {excludes, Shape::material, {"poisson", "stiffness"}},
+        {needs_object, Shape::material, {"poisson", "damping"}},
+        {at_most_one, Shape::tissue, {"stiffness", "young"}},
+        {excludes, Shape::tissue, {"poisson", "stiffness"}},
+        {needs_object, Shape::tissue, {"poisson", "damping"}},
+        {exactly_one, Shape::vertex_selection, {"ids", "box", "plane", "sphere", "around"}},
+        {exactly_one, Shape::held, {"ids", "box", "plane", "sphere", "around"}},
+        {exactly_one, Shape::driven, {"ids", "box", "plane", "sphere", "around"}},
+        {exactly_one, Shape::force, {"ids", "box", "plane", "sphere", "around"}},
+        {exactly_one, Shape::driven, {"velocity", "path", "turn"}},
+        {excludes, Shape::driven, {"path", "from", "until", "reverse_every"}},
+        {excludes, Shape::driven, {"turn", "from", "until", "reverse_every"}},
+        {exactly_one, Shape::force, {"force", "traction", "pressure", "acceleration", "torque"}},
+        {excludes, Shape::force, {"pressure", "on"}},
+        {excludes, Shape::force, {"acceleration", "on"}},
+        {excludes, Shape::force, {"torque", "on"}},
+        {exactly_one, Shape::obstacle, {"plane", "sphere", "box"}},
+        {exactly_one, Shape::probe, {"vertex", "near"}},
+        {exactly_one, Shape::cell_selection, {"ids", "box", "plane", "sphere", "around", "random", "tag"}},
+        {exactly_one, Shape::tag, {"value", "named"}},
+        {exactly_one, Shape::event, {"dissociate", "remove", "tear", "tear_where_stressed", "refine", "release"}},
+        {excludes, Shape::event, {"at", "every", "from", "until"}},
+        {exactly_one, Shape::dissociate, {"points", "plane", "blade"}},
+        {excludes, Shape::dissociate, {"points", "within"}},
+        {excludes, Shape::dissociate, {"blade", "within"}},
+        {exactly_one, Shape::within, {"box", "sphere", "around", "polygon"}},
+        {exactly_one, Shape::tear, {"vertex", "near"}},
+        {at_most_one, Shape::expect, {"components", "components_at_least"}},
+    };
+    const KeyRows others = keys_of_forces();
+    all.insert(all.end(), others.rules.begin(), others.rules.end());
+    return all;
+  }();
   return rules;
 }
 

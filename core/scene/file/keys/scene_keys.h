@@ -35,6 +35,7 @@ enum class Shape {
   force,
   force_factor,
   attachment,
+  air,
   contact,
   contact_pair,
   obstacle,
@@ -124,6 +125,15 @@ struct SceneRule {
   std::vector<std::string_view> keys;
 };
 std::span<const SceneRule> scene_rules();
+
+/// Rows that are written beside what they are about.
+struct KeyRows {
+  std::vector<SceneKey> keys{};
+  std::vector<ShapeHelp> shapes{};
+  std::vector<SceneRule> rules{};
+};
+/// Those of the kinds of force (core/scene/forces).
+KeyRows keys_of_forces();
 
 /// "a number > 0 [kg/m^3]": what is expected of a value, in words.
 std::string expectation(const SceneKey& key);

@@ -90,7 +90,7 @@ struct Halves {
       }
       if (!v.pull.empty()) v.pull[i] = {0.1 * i, 0, 1};
     }
-    for (double& p : body->pressures()) p = 300;
+    for (double& p : body->loads()) p = 300;
   }
 };
 

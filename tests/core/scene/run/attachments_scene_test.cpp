@@ -9,7 +9,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "core/scene/body/attached_points.h"
+#include "core/scene/forces/attached_points.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/plan/scene_plan.h"
 #include "core/scene/run/scene_verdict.h"
@@ -378,7 +378,7 @@ TEST(SceneAttachments, ArePlannedToTheByte) {
     const Problem problem = make_problem(file);
     ScenePlan plan = plan_scene(file);
     EXPECT_TRUE(plan.unplanned.empty());
-    const auto item = std::ranges::find(plan.items, Part::attachments, &PlanItem::part);
+    const auto item = std::ranges::find(plan.items, Part::force, &PlanItem::part);
     ASSERT_NE(item, plan.items.end());
     EXPECT_EQ(item->bytes, memory::predicted_bytes(file, problem, plan, *item));
     if (json != both) continue;
@@ -386,7 +386,7 @@ TEST(SceneAttachments, ArePlannedToTheByte) {
     EXPECT_EQ(item->why, "/attachments/0/stiffness: 500; /attachments/1/stiffness: 3");
   }
   const SceneFile without = parse(moving_box());
-  for (const PlanItem& item : plan_scene(without).items) EXPECT_NE(item.part, Part::attachments);
+  for (const PlanItem& item : plan_scene(without).items) EXPECT_NE(item.part, Part::force);
 }
 
 // A mean over what is connected by cells, though springs pull at other parts.

@@ -280,7 +280,7 @@ TEST(MembraneScene, IsPlannedToTheByteAndSaysThatNothingResistsBending) {
       for (const PlanItem& item : plan.items) {
         if (item.part == Part::elements) elements = item.what;
         if (item.part == Part::elements || item.part == Part::springs || item.part == Part::cells ||
-            item.part == Part::bending) {
+            item.part == Part::force) {
           EXPECT_EQ(item.bytes, memory::predicted_bytes(scene, problem, plan, item)) << name(item.part);
         }
       }

@@ -247,7 +247,7 @@ TEST(SpringsBesideEdges, ArePlannedToTheByte) {
       ScenePlan plan = plan_scene(scene);
       int found = 0;
       for (const PlanItem& item : plan.items)
-        if (item.part == Part::cell_springs || item.part == Part::bending || item.part == Part::rest ||
+        if (item.part == Part::cell_springs || item.part == Part::force || item.part == Part::rest ||
             item.part == Part::elements) {
           EXPECT_EQ(item.bytes, memory::predicted_bytes(scene, problem, plan, item)) << name(item.part);
           if (item.part != Part::rest) ++found;

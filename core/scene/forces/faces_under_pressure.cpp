@@ -1,4 +1,4 @@
-#include "core/scene/body/faces_under_pressure.h"
+#include "core/scene/forces/faces_under_pressure.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "core/scene/body/attached_points.h"
+#include "core/scene/forces/attached_points.h"
 
 #include <fmt/format.h>
 
