@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -144,6 +145,51 @@ Files users_of(const std::string& room, const std::vector<std::string>& words, c
         if (text.find(word) != std::string::npos) users.push_back(name + ": " + text);
   }
   return users;
+}
+
+/// The sources of core in which a name stands as a word.
+Files sources_of_core_with(const std::string& name) {
+  const fs::path root = source_folder();
+  const std::regex word("(^|[^A-Za-z0-9_])(" + name + ")($|[^A-Za-z0-9_])");
+  Files found;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "core")) {
+    const auto extension = entry.path().extension();
+    if (extension != ".h" && extension != ".cpp") continue;
+    std::ifstream file(entry.path());
+    for (std::string text; std::getline(file, text);)
+      if (std::regex_search(text, word)) {
+        found.push_back(fs::relative(entry.path(), root).generic_string());
+        break;
+      }
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+// What an author edits in core, by an example of each kind (core/README.md, "To add").
+TEST(Additions, OfAForceOfASceneNeedFourSources) {
+  EXPECT_EQ(sources_of_core_with("Air|air_kind|Shape::air|scene[.]air|  air,"),
+            (Files{"core/scene/file/keys/scene_keys.h", "core/scene/file/scene_file.h", "core/scene/forces/air.cpp",
+                   "core/scene/forces/kinds.h"}));
+}
+TEST(Additions, OfAViewForAForceNeedItselfAndTheForce) {
+  EXPECT_EQ(sources_of_core_with("PressedFacesView"),
+            (Files{"core/scene/forces/pressures.cpp", "core/views/pressed_faces.cpp", "core/views/pressed_faces.h"}));
+}
+TEST(Additions, OfAnIntegratorNeedItselfAndItsRow) {
+  EXPECT_EQ(sources_of_core_with("Ros2"),
+            (Files{"core/time/implicit/ros2.cpp", "core/time/implicit/ros2.h", "core/time/integrators.cpp"}));
+}
+TEST(Additions, OfAMeshFormatNeedItselfItsDeclarationAndItsCases) {
+  EXPECT_EQ(sources_of_core_with("read_off"), (Files{"core/meshes/mesh_io.cpp", "core/meshes/surfaces/off.cpp",
+                                                     "core/meshes/surfaces/surface_formats.h"}));
+}
+TEST(Additions, OfAnEventNeedItsActionItsEventAndTheListsThatACompilerNames) {
+  EXPECT_EQ(sources_of_core_with("Release"),
+            (Files{"core/scene/body/body_of_parts.cpp", "core/scene/body/events/ready.h",
+                   "core/scene/body/events/release_event.cpp", "core/scene/body/needs.cpp",
+                   "core/scene/file/actions/action.h", "core/scene/file/actions/release.h",
+                   "core/scene/file/scene_problem.cpp", "core/scene/file/scene_rules.cpp", "core/scene/soft_body.h"}));
 }
 
 // Printed text and JSON have been made harmless on their way; nothing goes through a shell.

@@ -111,7 +111,8 @@ inline std::size_t predicted_force_bytes(const SceneFile& scene, const Problem& 
            cells.size() * 2 * number + (cells.size() + 1) * number +
            (n.vertices + (cells.empty() ? 0 : n.cells)) * number;
   }
-  if (item.name() == "air") {  // corners, their number and area; on a map, the face of each row and the row of each face
+  if (item.name() ==
+      "air") {  // corners, their number and area; on a map, the face of each row and the row of each face
     const bool surface = plan.needs.body.storage == Storage::surface;
     std::size_t faces = 0, corners = 0;  // of the boundary: each is counted once, with its corners
     for (const std::vector<int>& face : faces_of(problem.mesh.kinds.front())) corners = face.size();

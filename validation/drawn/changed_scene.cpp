@@ -368,6 +368,8 @@ Json in_moving_frame(Json scene, const Vector3d& place, const Vector3d& velocity
       if (body.contains("initial_velocity")) speed_up(body);
   if (scene.contains("contact") && scene["contact"].contains("obstacles"))
     for (Json& obstacle : scene["contact"]["obstacles"]) obstacle["velocity"] = json_of_bits(velocity);
+  if (scene.contains("air"))
+    scene["air"]["velocity"] = json_of_bits(vector_of(scene["air"].value("velocity", Json{0, 0, 0})) + velocity);
   return scene;
 }
 

@@ -51,6 +51,7 @@ class SceneOfAllKeys {
     draw_events();
     draw_sleep();
     draw_output();
+    draw_air();
     // events may turn out to be impossible when they are due
     Simulation simulation(read());
     while (simulation.steps_done() < simulation.step_count() && !simulation.advance()) continue;
@@ -408,6 +409,14 @@ class SceneOfAllKeys {
     one["stiffness"] = written(scales_.mass * scales_.rate * scales_.rate * draw_.logarithmic(1e-3, 1e-2));
     if (is_free_ && !one.contains("to")) return;
     json_["attachments"] = Json::array({one});
+  }
+
+  void draw_air() {
+    if (is_free_ || dimension_ == 1 || !happens(0.25)) return;
+    const double share = scales_.mass / static_cast<double>(scales_.points);
+    json_["air"]["drag"] =
+        written(share * scales_.rate / (scales_.edge * scales_.edge) * draw_.logarithmic(1e-3, 3e-2));
+    if (happens(0.6)) json_["air"]["velocity"] = json_of(speed_ * draw_.direction());
   }
 
   // ---- contact

@@ -386,14 +386,13 @@ MemoryReport BodyOfParts::memory() const {
     numbers += bytes_of(part.point, part.cell, part.material);
     for (const auto& term : part.terms) numbers += term->bytes();
   }
-  MemoryReport report{
-      {Part::vertices, bytes_of_vertices(vertices_) + numbers},
-      {Part::viscosity, bytes_of(vertices_.viscosity)},
-      {Part::fixed, bytes_of(vertices_.fixed, vertices_.held_axes)},
-      {Part::rest, bytes_of(vertices_.rest)},
-      {Part::pull, bytes_of(vertices_.pull)},
-      {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
-      {Part::damping, springs_.damping_bytes()}};
+  MemoryReport report{{Part::vertices, bytes_of_vertices(vertices_) + numbers},
+                      {Part::viscosity, bytes_of(vertices_.viscosity)},
+                      {Part::fixed, bytes_of(vertices_.fixed, vertices_.held_axes)},
+                      {Part::rest, bytes_of(vertices_.rest)},
+                      {Part::pull, bytes_of(vertices_.pull)},
+                      {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
+                      {Part::damping, springs_.damping_bytes()}};
   forces_.report(report);
   if (contact() != nullptr) report.push_back({Part::contact, bytes_of(samples_) + contact()->bytes()});
   for (const Member& part : parts_)

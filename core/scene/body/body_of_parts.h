@@ -16,8 +16,8 @@ namespace dartboard {
 /// Its columns are those of its parts, one after another: solids, surfaces, chains. They are the state between events;
 /// an event operates on the parts, which are given the state before, and the columns are made anew after it.
 ///
-/// Forces of some kinds are over all of them (ForceNeed::over_parts), as attachments, which join the parts; so is contact
-/// with obstacles. Contact between bodies is that of the solids, whose vertices come first.
+/// Forces of some kinds are over all of them (ForceNeed::over_parts), as attachments, which join the parts; so is
+/// contact with obstacles. Contact between bodies is that of the solids, whose vertices come first.
 /// cost  O(vertices + springs + pieces of surfaces + attachments) for each event that changes anything, and O(cells) to
 ///       find attached cells, in addition to that of the parts
 class BodyOfParts final : public SimulatedBody {

@@ -117,7 +117,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   SpringSystem system() const override {
     const bool has_springs = body_.cell_materials().has_springs();
     return system_of(body_.vertices, has_springs ? ends_.ends : std::span<const SpringEnds>(),
-                     has_springs ? SpringSpan(body_.springs) : SpringSpan(), body_.surroundings.gravity, forces_.terms());
+                     has_springs ? SpringSpan(body_.springs) : SpringSpan(), body_.surroundings.gravity,
+                     forces_.terms());
   }
   std::unique_ptr<ReadyEvent> make_ready(const SceneEvent& event) override {
     ChangingBody<Map>& on = *this;
@@ -236,10 +237,10 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
           {Part::cell_springs, bytes_of(body_.cell_springs) + (of_elements ? 0 : bytes_of(solids_.nodes))});
     forces_.report(report);
     if (has_skin_)
-      report.push_back({Part::contact,
-                        skin_.bytes() + (contact() != nullptr ? contact()->bytes() : 0) +
-                            (has_skin_solids_ ? skin_solids_.bytes() + body_contact()->bytes() + bytes_of(first_cell_)
-                                              : 0)});
+      report.push_back(
+          {Part::contact,
+           skin_.bytes() + (contact() != nullptr ? contact()->bytes() : 0) +
+               (has_skin_solids_ ? skin_solids_.bytes() + body_contact()->bytes() + bytes_of(first_cell_) : 0)});
     return report;
   }
 
@@ -353,8 +354,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
   TriangleNodesView triangles_;                   // of a surface of elements, all triangles
   std::unique_ptr<ForceTerm> elements_;           // null where all are springs
   std::unique_ptr<ForceTerm> cell_springs_;       // null without diagonals
-  Skin skin_;  // the samples of its boundary, where there is contact
-  std::vector<std::size_t> first_cell_;  // of each body of the scene, in its mesh
+  Skin skin_;                                     // the samples of its boundary, where there is contact
+  std::vector<std::size_t> first_cell_;           // of each body of the scene, in its mesh
   // what its parts can be inside of, where some touch
   SkinSolidsView skin_solids_{[this](std::uint32_t cell) { return body_of_cell(first_cell_, mesh_cell_[cell]); }};
   ComponentLabels components_;

@@ -43,7 +43,8 @@ class SimulatedBody {
   std::span<Eigen::Vector3d> pull() { return vertices().pull; }
   /// All of its forces but those of springs.
   const BodyForces& forces() const { return forces_; }
-  /// The values of loads that a timeline sets, pressures that follow their faces [Pa] by number of force; empty without.
+  /// The values of loads that a timeline sets, pressures that follow their faces [Pa] by number of force; empty
+  /// without.
   std::span<double> loads() {
     BodyForce* const force = forces_.with_loads();
     return force == nullptr ? std::span<double>() : force->loads();

@@ -32,9 +32,8 @@ void visit_points(SceneFile& scene, const Visit& visit) {
     visit_ids(scene.fixed[k].vertices, fmt::format("/fixed/{}", k), visit);
   for (SceneDrive& drive : scene.driven) visit_ids(drive.vertices, drive.path, visit);
   for (SceneForce& force : scene.forces) visit_ids(force.vertices, force.path, visit);
-  for_each_selection_of_forces(scene, [&visit](const std::string& path, VertexSelection& vertices) {
-    visit_ids(vertices, path, visit);
-  });
+  for_each_selection_of_forces(
+      scene, [&visit](const std::string& path, VertexSelection& vertices) { visit_ids(vertices, path, visit); });
   for (Probe& probe : scene.probes)
     if (auto* point = std::get_if<std::uint32_t>(&probe.vertex)) visit(*point, probe.path + "/vertex");
   const Overloads visit_choice{
@@ -118,8 +117,7 @@ void name_all_vertices(SceneFile& scene, const Places& places) {
   for (HeldSelection& held : scene.fixed) all_of(held.vertices);
   for (SceneDrive& drive : scene.driven) all_of(drive.vertices);
   for (SceneForce& force : scene.forces) all_of(force.vertices);
-  for_each_selection_of_forces(scene,
-                               [&all_of](const std::string&, VertexSelection& vertices) { all_of(vertices); });
+  for_each_selection_of_forces(scene, [&all_of](const std::string&, VertexSelection& vertices) { all_of(vertices); });
   const Overloads name_in_choice{[&all_of](const std::string&, VertexSelection& vertices) { all_of(vertices); },
                                  [&places](const std::string&, FacetPoints& facets) {
                                    for (auto& points : facets) places.find_face(points);

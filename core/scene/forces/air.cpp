@@ -385,6 +385,8 @@ ForceKind air_kind() {
             if (!value.has("air")) return;
             const SceneValue air = value.at("air");
             scene.air = Air{.drag = air.get<double>("drag"), .velocity = air.get<Vector3d>("velocity")};
+            if (!(scene.air->velocity.stableNorm() <= speed_of_light))
+              air.fail_at("velocity", fmt::format("is {}", air.at("velocity").shown()), "no speed above that of light");
           },
       .for_each_number =
           [](const SceneFile& scene, const ForceKind::Number& visit) {

@@ -86,7 +86,7 @@ TEST(BarOfScene, RefusesWhatIsNoBarHeldAtOneEnd) {
   EXPECT_NE(refusal(pulled).find("bar.json: /driven: moves vertices"), std::string::npos);
   pulled.more = R"("attachments": [{"plane": {"point": [0, 0, 3], "normal": [0, 0, -1]}, "stiffness": 1}],)";
   EXPECT_EQ(refusal(pulled),
-            "bar.json: /attachments: holds vertices by springs; expected a bar held at one end, and no more");
+            "bar.json: /attachments: is a force; expected a bar held at one end, and no more");
   cube.body =
       R"({"generate": {"box": {"cells": [4, 4, 4], "spacing": 0.06, "pattern": "kuhn"}}, "translate": [1, 2, 3]})";
   EXPECT_NE(refusal(cube).find("bar.json: /body/generate/box/cells: make a box of 1 x 1 x 1"), std::string::npos);

@@ -54,6 +54,7 @@ RelationFound judge_momentum(const JudgedScene& s) {
   if (!file.fixed.empty() || !file.driven.empty()) return does_not_apply("something holds it");
   if (!file.obstacles.empty()) return does_not_apply("obstacles push it");
   if (file.material.viscosity > 0.0) return does_not_apply("viscosity brakes it");
+  if (file.air) return does_not_apply("air brakes and carries it");
   if (file.sleep) return does_not_apply("sleep takes momentum");
   if (!file.touches.empty() && s.scheme().linearized)
     return does_not_apply("where bodies touch, the tangent has blocks of each alone, which changes momentum");

@@ -65,6 +65,7 @@ std::vector<Case> all_cases() {
            {"plane": {"point": [0, 0, 0.2], "normal": [0, 0, 1]}, "stiffness": 1500}]})")},
       {"pressures that follow", two(tetrahedra, elastic, R"({"forces": [
            {"plane": {"point": [0, 0, 0.2], "normal": [0, 0, 1]}, "pressure": 400, "normals": "current"}]})")},
+      {"moving air", two(tetrahedra, elastic, R"({"air": {"drag": 0.5, "velocity": [1, -2, 0.5]}})")},
       {"held vertices and pulls", two(tetrahedra, springs, R"({"fixed": [
            {"plane": {"point": [0, 0, 0.2], "normal": [0, 0, 1]}},
            {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}, "axes": ["x", "z"]}],

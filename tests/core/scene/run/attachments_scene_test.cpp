@@ -9,8 +9,8 @@
 #include <numbers>
 #include <tuple>
 
-#include "core/scene/forces/attached_points.h"
 #include "core/scene/file/scene_problem.h"
+#include "core/scene/forces/attached_points.h"
 #include "core/scene/plan/scene_plan.h"
 #include "core/scene/run/scene_verdict.h"
 #include "core/time/watch/stable_step.h"

@@ -123,6 +123,21 @@ TEST(FollowingPressure, IsInTheEnergyAccountToRoundingWithEnergyMomentum) {
     }
 }
 
+// The second removal of a cell changes nothing, and ends a part of a step all the same.
+TEST(FollowingPressure, CountsItsWorkOnceWhereAnEventWithinAStepChangesNothing) {
+  const auto applied = [](const char* events) {
+    Json scene = with_events(spinning(pressed_box(side, 2000)), events);
+    scene["event_times"] = "exact";
+    Simulation simulation(parse(scene));
+    run(simulation);
+    return *simulation.diagnostics().applied;
+  };
+  const double once = applied(R"([{"at": 0.002, "remove": {"ids": [3]}}])");
+  const double idle = applied(R"([{"at": 0.002, "remove": {"ids": [3]}}, {"at": 0.0055, "remove": {"ids": [3]}}])");
+  EXPECT_GT(std::abs(once), 0.01);
+  EXPECT_NEAR(idle, once, 1e-3 * std::abs(once));
+}
+
 TEST(FollowingPressure, KeepsTheOrderOfEveryIntegrator) {
   for (const IntegratorEntry& entry : integrators()) {
     if (entry.name == "explicit-euler") continue;  // nothing is damped, so no step is stable
