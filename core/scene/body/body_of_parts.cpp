@@ -141,6 +141,26 @@ void BodyOfParts::take_state() {
   }
 }
 
+std::span<const Eigen::Vector3d> BodyOfParts::own(const Member& part, std::span<const Eigen::Vector3d> x) {
+  return x.subspan(part.first, part.body->vertices().size());
+}
+
+bool BodyOfParts::does_work() const {
+  return SimulatedBody::does_work() ||
+         std::ranges::any_of(parts_, [](const Member& part) { return part.body->does_work(); });
+}
+
+void BodyOfParts::begin_work(std::span<const Eigen::Vector3d> x) const {
+  SimulatedBody::begin_work(x);
+  for (const Member& part : parts_) part.body->begin_work(own(part, x));
+}
+
+double BodyOfParts::work(std::span<const Eigen::Vector3d> x, double h) const {
+  double sum = SimulatedBody::work(x, h);
+  for (const Member& part : parts_) sum += part.body->work(own(part, x), h);
+  return sum;
+}
+
 void BodyOfParts::track(std::uint32_t vertex) {
   SimulatedBody::track(vertex);
   const Member& part = part_of(vertex);

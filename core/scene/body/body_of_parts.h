@@ -33,6 +33,9 @@ class BodyOfParts final : public SimulatedBody {
   VertexColumns& vertices() override { return vertices_; }
   using SimulatedBody::vertices;
   SpringSystem system() const override { return system_of(vertices_, ends_, springs_, gravity_, forces_.terms()); }
+  bool does_work() const override;
+  void begin_work(std::span<const Eigen::Vector3d> x) const override;
+  double work(std::span<const Eigen::Vector3d> x, double h) const override;
   void track(std::uint32_t vertex) override;
 
   /// Cells by place or number, in whichever part they are; what only solids have acts on the solids.
@@ -68,6 +71,8 @@ class BodyOfParts final : public SimulatedBody {
 
   SimulatedBody& leading() const;
   const Member& part_of(std::uint32_t vertex) const;
+  /// Its columns of all columns.
+  static std::span<const Eigen::Vector3d> own(const Member& part, std::span<const Eigen::Vector3d> x);
   void give_state() const;
   void take_state();
   void take_vertices();

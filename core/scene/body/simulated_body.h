@@ -43,6 +43,10 @@ class SimulatedBody {
   std::span<Eigen::Vector3d> pull() { return vertices().pull; }
   /// All of its forces but those of springs.
   const BodyForces& forces() const { return forces_; }
+  /// The work of forces that have no energy, of parts too (BodyForce::work).
+  virtual bool does_work() const { return forces_.do_work(); }
+  virtual void begin_work(std::span<const Eigen::Vector3d> x) const { forces_.begin_work(x); }
+  virtual double work(std::span<const Eigen::Vector3d> x, double h) const { return forces_.work(x, h); }
   /// The values of loads that a timeline sets, pressures that follow their faces [Pa] by number of force; empty
   /// without.
   std::span<double> loads() {

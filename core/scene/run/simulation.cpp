@@ -342,11 +342,11 @@ std::uint32_t Simulation::file_number(std::uint32_t vertex) const {
   return file_number_.empty() ? point[vertex] : file_number_[point[vertex]];
 }
 
-bool Simulation::sums_work() const { return timeline_->sums_work() || body_->forces().do_work(); }
+bool Simulation::sums_work() const { return timeline_->sums_work() || body_->does_work(); }
 
 void Simulation::begin_work(double now) {
   work_from_ = now;
-  body_->forces().begin_work(body_->vertices().position);
+  body_->begin_work(body_->vertices().position);
 }
 
 // In a step, or a part of one, pulls are constant, so their work is the change of their potential; that of forces that
@@ -354,7 +354,7 @@ void Simulation::begin_work(double now) {
 void Simulation::add_work_of_forces(double now) {
   if (!sums_work()) return;
   const auto& x = body_->vertices().position;
-  applied_ += pull_energy(body_->system(), x) - potential_ - body_->forces().work(x, now - work_from_);
+  applied_ += pull_energy(body_->system(), x) - potential_ - body_->work(x, now - work_from_);
 }
 
 Diagnostics Simulation::diagnostics(std::optional<double> largest_stress) const {

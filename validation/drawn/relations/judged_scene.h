@@ -37,8 +37,8 @@ class JudgedScene {
   std::optional<int> dimension() const { return dimension_; }
   const MotionScales& scales() const { return scales_; }
   bool is_damped() const;
-  /// Are dampers taken one after the other?
-  bool is_swept() const { return scheme_.sweeps && is_damped(); }
+  /// Are dampers, and the faces in the air, taken one after the other?
+  bool is_swept() const { return scheme_.sweeps && (is_damped() || file_.air); }
   /// Does the integrator not step each component by itself: by one tolerance for all, or by dampers in one order?
   bool steps_all_as_one() const { return scheme_.implicit || adaptive_ || is_swept(); }
   /// Has a contact friction, or restitution below 1?

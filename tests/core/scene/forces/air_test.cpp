@@ -342,6 +342,22 @@ TEST(Air, IsTheSameOnSolidsAndSurfacesOfOneScene) {
   for (std::size_t k = 0; k < alone.size(); ++k) EXPECT_EQ(together[k], alone[k]) << k;
 }
 
+TEST(Air, IsInTheEnergyAccountOfSolidsAndSurfacesOfOneScene) {
+  Json scene = with_air(body_of(sheet, springs, 9.81), {1, 2, 0});
+  scene.erase("body");
+  scene["bodies"] = Json::parse(R"([{"generate": {"box": {"cells": [2, 2, 2], "spacing": 0.1}}},
+      {"generate": {"sheet": {"cells": [3, 2], "spacing": 0.1}}, "material": {"density": 0.2, "stiffness": 10}}])");
+  scene["material"]["viscosity"] = 0;
+  scene["step"] = 0.0005;
+  scene["duration"] = 0.1;
+  Simulation simulation(parse(scene));
+  const double before = simulation.diagnostics().energy();
+  run(simulation);
+  const Diagnostics end = simulation.diagnostics();
+  EXPECT_GT(std::abs(*end.applied), 1e-3);
+  EXPECT_NEAR(end.energy(), before, 1e-3 * std::abs(*end.applied));
+}
+
 TEST(Air, GoesOnFromACheckpointWithTheSameBits) {
   Json scene = with_events(with_air(body_of(tetrahedra, springs, 9.81), {2, 0, 0}), R"([
       {"at": 0.003, "dissociate": {"plane": {"point": [0.1, 0, 0], "normal": [1, 0, 0]}}},
