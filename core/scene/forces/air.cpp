@@ -351,33 +351,24 @@ ForceKind air_kind() {
   using enum ValueType;
   return {
       .name = "air",
-      .rows = {.keys = {{.shape = Shape::scene,
-                         .name = "air",
-                         .type = object,
-                         .of = Shape::air,
-                         .help = "air around all bodies, at rest or moving, which slows and carries them"},
-                        {.shape = Shape::air,
-                         .name = "drag",
-                         .type = real,
-                         .unit = "N s/m^3",
-                         .range = {.least = 0.0, .above = true},
-                         .required = true,
-                         .help = "force per area and per speed, along the normal"},
-                        {.shape = Shape::air,
-                         .name = "velocity",
-                         .type = point,
-                         .unit = "m/s",
-                         .standard = "[0, 0, 0]",
-                         .help = "of the air"}},
-               .shapes =
-                   {{Shape::air, "air",
-                     "Drag of a face of the boundary of a solid, cuts included, or of a cell of a surface: drag times "
-                     "its area times the normal part of the velocity of the air relative to it, along the normal "
-                     "(Provot 1995), in equal shares at its corners. It is linear in the velocity, and there is none "
-                     "along a face, none in the lee of another body, and none on chains. A plate of mass m and area A "
-                     "sinks at m g / (drag A) in the end, a box at half of that, since it has two such faces. Its "
-                     "work is among that of applied forces: summed by the mean velocities of steps, of second order "
-                     "in the step."}}},
+      // clang-format off
+      .rows = {
+          .keys = {
+              {.shape = Shape::scene, .name = "air", .type = object, .of = Shape::air,
+               .help = "air around all bodies, at rest or moving, which slows and carries them"},
+              {.shape = Shape::air, .name = "drag", .type = real, .unit = "N s/m^3", .range = {.least = 0.0, .above = true},
+               .required = true, .help = "force per area and per speed, along the normal"},
+              {.shape = Shape::air, .name = "velocity", .type = point, .unit = "m/s", .standard = "[0, 0, 0]",
+               .help = "of the air; not above that of light"}},
+          .shapes = {
+              {Shape::air, "air",
+               "Drag of a face of the boundary of a solid, cuts included, or of a cell of a surface: drag times its area times the "
+               "normal part of the velocity of the air relative to it, along the normal (Provot 1995), in equal shares at its "
+               "corners. It is linear in the velocity, and there is none along a face, none in the lee of another body, and none on "
+               "chains. A plate of mass m and area A sinks at m g / (drag A) in the end, a box at half of that, since it has two such "
+               "faces. Its work is among that of applied forces: summed by the mean velocities of steps, of second order in the "
+               "step."}}},
+      // clang-format on
       .changes_energy = true,
       .is_in = [](const SceneFile& scene) { return scene.air.has_value(); },
       .read =

@@ -117,38 +117,28 @@ ForceKind attachments_kind() {
   using enum ValueType;
   return {
       .name = "attachments",
-      .rows = {.keys = {{.shape = Shape::scene,
-                         .name = "attachments",
-                         .type = objects,
-                         .of = Shape::attachment,
-                         .standard = "[]",
-                         .help = "vertices that springs hold to a body or to the places where they are at rest"},
-                        {.shape = Shape::attachment,
-                         .name = "to",
-                         .type = integer,
-                         .range = {.least = 0.0, .most = 4294967294.0},
-                         .help =
-                             "the body that they are attached to, by its place in 'bodies', counted from 0; selected "
-                             "vertices of that body are not held. Left out, they are held to the places where they are "
-                             "at rest"},
-                        {.shape = Shape::attachment,
-                         .name = "stiffness",
-                         .type = real,
-                         .unit = "N/m",
-                         .range = {.least = 0.0, .above = true},
-                         .required = true,
-                         .help = "of all springs together, shared in proportion to the masses of the vertices"}},
-               .shapes =
-                   {{Shape::attachment, "attachment",
-                     "Springs without length and without damping, one for each of some vertices. Each is attached to "
-                     "the point of a body, or of space, where the vertex is at rest, so that at rest there is no "
-                     "force. In a body that point is in the cell that the vertex is in or nearest to, no farther away "
-                     "than the longest edge of that cell, and moves with a tetrahedron (of a surface a triangle) of "
-                     "it; to be attached to a surface, a vertex lies in the plane of such a triangle. Momentum is "
-                     "kept, also where a fixed or driven vertex is attached. Parts of a vertex that comes apart share "
-                     "its spring in proportion to their masses, what loses cells loses their share, and a cell that "
-                     "is removed takes what is attached to it along. Not with refinement."}},
-               .rules = {{SceneRule::exactly_one, Shape::attachment, {"ids", "box", "plane", "sphere", "around"}}}},
+      // clang-format off
+      .rows = {
+          .keys = {
+              {.shape = Shape::scene, .name = "attachments", .type = objects, .of = Shape::attachment, .standard = "[]",
+               .help = "vertices that springs hold to a body or to the places where they are at rest"},
+              {.shape = Shape::attachment, .name = "to", .type = integer, .range = {.least = 0.0, .most = 4294967294.0},
+               .help = "the body that they are attached to, by its place in 'bodies', counted from 0; selected vertices of that body "
+                       "are not held. Left out, they are held to the places where they are at rest"},
+              {.shape = Shape::attachment, .name = "stiffness", .type = real, .unit = "N/m",
+               .range = {.least = 0.0, .above = true}, .required = true,
+               .help = "of all springs together, shared in proportion to the masses of the vertices"}},
+          .shapes = {
+              {Shape::attachment, "attachment",
+               "Springs without length and without damping, one for each of some vertices. Each is attached to the point of a "
+               "body, or of space, where the vertex is at rest, so that at rest there is no force. In a body that point is in "
+               "the cell that the vertex is in or nearest to, no farther away than the longest edge of that cell, and moves "
+               "with a tetrahedron (of a surface a triangle) of it; to be attached to a surface, a vertex lies in the plane of "
+               "such a triangle. Momentum is kept, also where a fixed or driven vertex is attached. Parts of a vertex that "
+               "comes apart share its spring in proportion to their masses, what loses cells loses their share, and a cell "
+               "that is removed takes what is attached to it along. Not with refinement."}},
+          .rules = {{SceneRule::exactly_one, Shape::attachment, {"ids", "box", "plane", "sphere", "around"}}}},
+      // clang-format on
       .is_in = [](const SceneFile& scene) { return !scene.attachments.empty(); },
       .read =
           [](const SceneValue& value, SceneFile& scene) {

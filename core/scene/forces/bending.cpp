@@ -62,37 +62,24 @@ void read(const SceneValue& value, SceneFile& scene) {
 
 ForceKind bending_kind() {
   using enum ValueType;
-  constexpr Range not_negative{.least = 0.0};
   return {
       .name = "bending",
-      .rows =
-          {.keys = {{.shape = Shape::scene,
-                     .name = "bending",
-                     .type = object,
-                     .of = Shape::bending,
-                     .help = "what resists the bending of a surface"},
-                    {.shape = Shape::bending,
-                     .name = "rigidity",
-                     .type = real,
-                     .unit = "N m",
-                     .range = not_negative,
-                     .help =
-                         "flexural rigidity of a flat sheet of triangles, E h^3 / (12 (1 - nu^2)) of a plate of "
-                         "thickness h: energy that is quadratic in the bend of each edge, with a constant matrix. "
-                         "Exact on triangles with equal sides; squares halved have it along their sides, and thrice "
-                         "that along one diagonal"},
-                    {.shape = Shape::bending,
-                     .name = "second_neighbours",
-                     .type = real,
-                     .unit = "N/m",
-                     .range = not_negative,
-                     .help = "stiffness of springs between second neighbours, as Provot has them: between the two "
-                             "corners across an edge of triangles, along the lines of a mesh of quadrilaterals. They "
-                             "have no linear bending stiffness: their energy goes with the fourth power of the "
-                             "curvature, so take them for the paper, not for numbers"}},
-           .shapes = {{Shape::bending, "bending",
-                       "What resists the bending of a surface: by its rigidity, or by springs."}},
-           .rules = {{SceneRule::exactly_one, Shape::bending, {"rigidity", "second_neighbours"}}}},
+      // clang-format off
+      .rows = {
+          .keys = {
+              {.shape = Shape::scene, .name = "bending", .type = object, .of = Shape::bending,
+               .help = "what resists the bending of a surface"},
+              {.shape = Shape::bending, .name = "rigidity", .type = real, .unit = "N m", .range = {.least = 0.0},
+               .help = "flexural rigidity of a flat sheet of triangles, E h^3 / (12 (1 - nu^2)) of a plate of thickness h: energy "
+                       "that is quadratic in the bend of each edge, with a constant matrix. Exact on triangles with equal sides; "
+                       "squares halved have it along their sides, and thrice that along one diagonal"},
+              {.shape = Shape::bending, .name = "second_neighbours", .type = real, .unit = "N/m", .range = {.least = 0.0},
+               .help = "stiffness of springs between second neighbours, as Provot has them: between the two corners across an edge "
+                       "of triangles, along the lines of a mesh of quadrilaterals. They have no linear bending stiffness: their "
+                       "energy goes with the fourth power of the curvature, so take them for the paper, not for numbers"}},
+          .shapes = {{Shape::bending, "bending", "What resists the bending of a surface: by its rigidity, or by springs."}},
+          .rules = {{SceneRule::exactly_one, Shape::bending, {"rigidity", "second_neighbours"}}}},
+      // clang-format on
       .is_in = [](const SceneFile& scene) { return scene.bending.any(); },
       .read = read,
       .need = need};

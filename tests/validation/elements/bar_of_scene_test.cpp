@@ -85,8 +85,7 @@ TEST(BarOfScene, RefusesWhatIsNoBarHeldAtOneEnd) {
   pulled.more = R"("driven": [{"plane": {"point": [0, 0, 3], "normal": [0, 0, -1]}, "velocity": [0, 0, 1]}],)";
   EXPECT_NE(refusal(pulled).find("bar.json: /driven: moves vertices"), std::string::npos);
   pulled.more = R"("attachments": [{"plane": {"point": [0, 0, 3], "normal": [0, 0, -1]}, "stiffness": 1}],)";
-  EXPECT_EQ(refusal(pulled),
-            "bar.json: /attachments: is a force; expected a bar held at one end, and no more");
+  EXPECT_EQ(refusal(pulled), "bar.json: /attachments: is a force; expected a bar held at one end, and no more");
   cube.body =
       R"({"generate": {"box": {"cells": [4, 4, 4], "spacing": 0.06, "pattern": "kuhn"}}, "translate": [1, 2, 3]})";
   EXPECT_NE(refusal(cube).find("bar.json: /body/generate/box/cells: make a box of 1 x 1 x 1"), std::string::npos);

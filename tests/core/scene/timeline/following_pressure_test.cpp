@@ -169,6 +169,23 @@ TEST(FollowingPressure, GoesWithACellThatIsRemoved) {
 }
 
 // Both halves are pushed by what was their common boundary before: towards each other.
+TEST(FollowingPressure, IsThatOfOneBodyWhereSurfacesAreBesideItAndCellsGo) {
+  const auto places = [](bool with_sheet) {
+    Json scene = with_events(pressed_box(everywhere, 640), R"([{"at": 0.003, "remove": {"ids": [0, 7]}}])");
+    scene["bodies"] = Json::array({scene["body"]});
+    scene.erase("body");
+    if (with_sheet)
+      scene["bodies"].push_back(
+          Json::parse(R"({"generate": {"sheet": {"cells": [2, 2], "spacing": 0.1}}, "translate": [0, 0, 0.6]})"));
+    Simulation simulation(parse(scene));
+    run(simulation);
+    return simulation.frame({}).mesh.points;
+  };
+  const std::vector<Vector3d> alone = places(false), beside = places(true);
+  ASSERT_EQ(beside.size(), alone.size() + 9);
+  for (std::size_t k = 0; k < alone.size(); ++k) EXPECT_LE((beside[k] - alone[k]).norm(), 1e-13) << k;
+}
+
 TEST(FollowingPressure, StaysOnTheFacesOfBothSidesOfACut) {
   Simulation simulation(parse(with_events(pressed_box(everywhere, 640), R"([
     {"at": 0, "dissociate": {"plane": {"point": [0.125, 0, 0], "normal": [1, 0, 0]}}}])")));
