@@ -408,6 +408,19 @@ TEST(GalleryPhysics, TheSheetSagsAsAPlateOfItsRigidity) {
   }
 }
 
+// Along the curtain its weight pulls, across it weight and wind balance: a plane at an angle theta from the vertical,
+// tan theta = drag u / (density g), longer by the integral of what hangs below over the modulus.
+TEST(GalleryPhysics, TheCurtainHangsWhereWeightAndWindBalance) {
+  const SceneFile scene = gallery("curtain_blown");
+  const auto& sheet = std::get<SheetMesh>(scene.body.mesh);
+  const double length = sheet.cells[1] * sheet.spacing, weight = scene.material.density * -scene.gravity.y();
+  const double theta = std::atan(scene.air->drag * scene.air->velocity.z() / weight);
+  const double stretch = 0.5 * weight * std::cos(theta) * length * length / scene.material.young;
+  const double hangs = length + stretch;
+  expect_place(scene, place_of(scene, "hem"),
+               {0.5 * sheet.cells[0] * sheet.spacing, length - hangs * std::cos(theta), hangs * std::sin(theta)});
+}
+
 // Provot's cloth without cells: points of a grid with springs to their neighbours, across the squares, and to the
 // second neighbours along each line. On the border there is half of what there is within.
 TEST(GalleryPhysics, TheClothHangsAsANetOfSpringsDoes) {
