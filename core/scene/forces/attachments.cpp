@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/base/counted.h"
 #include "core/scene/file/keys/scene_value.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/forces/attached_points.h"

@@ -242,6 +242,8 @@ RelationFound judge_far_body(const JudgedScene& s) {
     return judge_far_body(other);
   }
   if (!s.motion().end.empty()) return does_not_apply("the run ends early");
+  if (s.file().air && last_named(s.motion(), "mass at").values[0] == 0.0)
+    return does_not_apply("nothing is left of it, and air stops another body that is as light");
   const auto longer = with_body_far_away(s.json(), s.scales().length, s.scales().mass, s.dimension().value_or(3));
   if (!longer) return does_not_apply("its planes reach everywhere");
   // its own points are the first ones again
