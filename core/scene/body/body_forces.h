@@ -23,7 +23,7 @@ class BodyForces {
   void add(const ForceTerm* term) {
     if (term != nullptr) terms_.insert(terms_.begin() + own_terms_++, term);
   }
-  /// Those of the needs that a body at this site has; over all parts of a body, those that are over them alone.
+  /// Those of the needs that a body at this site has.
   void make(std::span<const ForceNeed> needs, const ForceSite& site);
   /// Contact of these samples, which outlive it, with obstacles.
   void touch_obstacles(const std::vector<SceneObstacle>& obstacles, const std::vector<SkinSample>& samples);

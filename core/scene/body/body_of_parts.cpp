@@ -68,9 +68,8 @@ BodyOfParts::BodyOfParts(const Problem& problem, const BodyNeeds& needs, MakePar
       forces_.add(term);
     }
   }
-  std::vector<ForceNeed> over_parts = needs.forces;
-  std::erase_if(over_parts, [](const ForceNeed& need) { return !need.over_parts; });
-  forces_.make(over_parts, {parts_.front().dimension, vertices_, {}});
+  for (const ForceNeed& need : needs.forces)
+    if (need.over_parts) forces_.make({&need, 1}, {parts_.front().dimension, vertices_, {}});
   forces_.touch_obstacles(needs.obstacles, samples_);
   forces_.touch_bodies(leading().body_contact());
   take_state();

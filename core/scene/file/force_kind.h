@@ -31,7 +31,7 @@ struct ForceKind {
   bool (*is_in)(const SceneFile&) = nullptr;
   /// From a scene that has been checked against the table of keys.
   void (*read)(const SceneValue&, SceneFile&) = nullptr;
-  /// The selections of vertices that it makes, which the numbers of points in a mesh file and tags are resolved in.
+  /// The selections of vertices that it makes: the numbers of points in a mesh file are replaced, and they are counted.
   void (*for_each_selection)(SceneFile&, const Selection&) = nullptr;
   /// The sizes of the numbers that it gives, one of which is named where the sum of all forces is not finite.
   void (*for_each_number)(const SceneFile&, const Number&) = nullptr;
@@ -45,6 +45,11 @@ std::span<const ForceKind> force_kinds();
 inline void for_each_selection_of_forces(SceneFile& scene, const ForceKind::Selection& visit) {
   for (const ForceKind& kind : force_kinds())
     if (kind.for_each_selection != nullptr) kind.for_each_selection(scene, visit);
+}
+/// The same where nothing is changed.
+inline void for_each_selection_of_forces(
+    const SceneFile& scene, const std::function<void(const std::string& path, const VertexSelection&)>& visit) {
+  for_each_selection_of_forces(const_cast<SceneFile&>(scene), ForceKind::Selection(visit));
 }
 
 }  // namespace dartboard

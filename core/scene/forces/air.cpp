@@ -36,10 +36,17 @@ struct AirFace {
   }
 };
 
-/// Half the cross product of the diagonals, which is the area vector of any surface that four corners span.
-Vector3d area_vector(const AirFace& face, const StagePlaces& at) {
-  const auto line = [&](std::size_t a, std::size_t b) { return at.line(face.corner[a], face.corner[b]); };
+/// By the lines between vertices. Half the cross product of the diagonals is the area vector of any surface that four
+/// corners span.
+template <class Line>
+Vector3d area_vector_of(const AirFace& face, const Line& line_between) {
+  const auto line = [&](std::size_t a, std::size_t b) -> Vector3d {
+    return line_between(face.corner[a], face.corner[b]);
+  };
   return face.count == 3 ? 0.5 * line(0, 1).cross(line(0, 2)) : 0.5 * line(0, 2).cross(line(1, 3));
+}
+Vector3d area_vector(const AirFace& face, const StagePlaces& at) {
+  return area_vector_of(face, [&at](std::uint32_t i, std::uint32_t j) { return at.line(i, j); });
 }
 
 /// The faces in the air, in no particular order: cuts expose more of them.
@@ -262,11 +269,9 @@ class AirTerm final : public ForceTerm {
     EnergyChange sum;
     if (has_energy()) return sum;
     for (const AirFace& face : rows_) {
-      const auto half = [&](std::size_t a, std::size_t b) -> Vector3d {
-        const std::uint32_t i = face.corner[a], j = face.corner[b];
+      const Vector3d area = area_vector_of(face, [&](std::uint32_t i, std::uint32_t j) -> Vector3d {
         return at.line(i, j) + (0.5 * scale) * (step[j] - step[i]);
-      };
-      const Vector3d area = face.count == 3 ? 0.5 * half(0, 1).cross(half(0, 2)) : 0.5 * half(0, 2).cross(half(1, 3));
+      });
       const Vector3d share = Drag(air_, face, area).force(air_.velocity);
       for (const std::uint32_t k : face.corners()) {
         sum.value -= scale * share.dot(step[k]);
@@ -316,12 +321,16 @@ class AirForce final : public ViewedForce<FacesInAir> {
   void begin_work(std::span<const Vector3d> x) override { begin_.assign(x.begin(), x.end()); }
   /// By the areas half way.
   double work(std::span<const Vector3d> x, double h) const override {
-    std::vector<Vector3d> v(x.size());
-    for (std::size_t k = 0; k < v.size(); ++k) v[k] = (x[k] - begin_[k]) / h;
+    const auto velocity = [&](std::uint32_t k) -> Vector3d { return (x[k] - begin_[k]) / h; };
     double sum = 0.0;
     for (const AirFace& face : view_.rows) {
-      const Drag drag(air_, face, StagePlaces{begin_, v, 0.5 * h});
-      for (const std::uint32_t k : face.corners()) sum += h * drag.force(air_.velocity - v[k]).dot(v[k]);
+      const Drag drag(air_, face, area_vector_of(face, [&](std::uint32_t i, std::uint32_t j) -> Vector3d {
+                        return (begin_[j] - begin_[i]) + 0.5 * h * (velocity(j) - velocity(i));
+                      }));
+      for (const std::uint32_t k : face.corners()) {
+        const Vector3d v = velocity(k);
+        sum += h * drag.force(air_.velocity - v).dot(v);
+      }
     }
     return sum;
   }

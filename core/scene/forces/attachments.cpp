@@ -8,6 +8,7 @@
 #include "core/scene/file/scene_file.h"
 #include "core/scene/forces/attached_points.h"
 #include "core/scene/forces/body_force.h"
+#include "core/scene/forces/corners_of_cells.h"
 #include "core/scene/forces/kinds.h"
 #include "core/views/attachments_view.h"
 
@@ -22,7 +23,7 @@ class AttachmentsForce final : public ViewedForce<AttachmentsView> {
         term_(make_attachments(view_.rows, site.vertices.mass)) {}
 
   const ForceTerm& term() const override { return *term_; }
-  std::size_t bytes() const override { return ViewedForce::bytes() + bytes_of(attachments_, target_cells_); }
+  std::size_t bytes() const override { return ViewedForce::bytes() + bytes_of(attachments_); }
 
   void rebuild(const MapBody& body) override {
     if (!points_.empty())
@@ -34,47 +35,34 @@ class AttachmentsForce final : public ViewedForce<AttachmentsView> {
   void leave_map() override {
     ViewedForce::leave_map();
     attachments_ = {};
-    target_cells_ = {};
   }
   /// Each part of an attached vertex has a row, as in AttachmentsView.
   void rebuild(const BodyWithoutMap& body) override {
-    if (!points_.empty()) share(body.vertices);
+    if (!points_.empty()) attachments_ = shared_by_mass(std::exchange(points_, {}), body.vertices);
     on_map_ = false;
     std::vector<AttachedVertex>& rows = view_.rows;
     rows.clear();
-    const auto corners = body.corners_of(target_cells_);
+    std::vector<std::uint32_t> cells;
+    for (const Attachment& one : attachments_)
+      if (one.has_cell()) cells.push_back(one.cell);
+    const CornersOfCells corners(body, std::move(cells));
     std::vector<std::pair<std::uint32_t, std::uint32_t>> at;  // (point, vertex)
     for (std::uint32_t k = 0; k < body.vertices.size(); ++k) at.push_back({body.vertices.point[k], k});
     std::ranges::sort(at);
     for (const Attachment& one : attachments_) {
-      const auto* cell = one.has_cell()
-                             ? &corners[static_cast<std::size_t>(std::ranges::lower_bound(target_cells_, one.cell) -
-                                                                 target_cells_.begin())]
-                             : nullptr;
-      if (cell != nullptr && cell->empty()) continue;
+      if (one.has_cell() && !corners.is_there(one.cell)) continue;
       for (auto k = std::ranges::lower_bound(at, std::pair(one.point, 0u)); k != at.end() && k->first == one.point;
            ++k) {
         AttachedVertex& row = rows.emplace_back(attached(one, k->second));
-        for (std::size_t a = 0; a < one.count; ++a)
-          row.nodes[a + 1] = std::ranges::find(*cell, one.corners[a], &CellCorner::point)->vertex;
+        for (std::size_t a = 0; a < one.count; ++a) row.nodes[a + 1] = corners.vertex_at(one.cell, one.corners[a]);
       }
     }
   }
 
  private:
-  void share(const VertexColumns& vertices) {
-    attachments_ = shared_by_mass(std::exchange(points_, {}), vertices);
-    for (const Attachment& one : attachments_)
-      if (one.has_cell()) target_cells_.push_back(one.cell);
-    std::ranges::sort(target_cells_);
-    target_cells_.erase(std::unique(target_cells_.begin(), target_cells_.end()), target_cells_.end());
-  }
-
   std::vector<AttachedPoints> points_;  // until their stiffness is shared
   std::function<std::uint32_t(std::uint32_t)> mesh_cell_;
-  // without a map
-  std::vector<Attachment> attachments_;
-  std::vector<std::uint32_t> target_cells_;  // of the mesh, ascending
+  std::vector<Attachment> attachments_;  // without a map
   std::unique_ptr<ForceTerm> term_;
 };
 

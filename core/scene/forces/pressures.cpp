@@ -6,6 +6,7 @@
 #include "core/forces/face_pressure.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/forces/body_force.h"
+#include "core/scene/forces/corners_of_cells.h"
 #include "core/scene/forces/faces_under_pressure.h"
 #include "core/scene/forces/kinds.h"
 #include "core/views/pressed_faces.h"
@@ -30,15 +31,12 @@ class PressuresForce final : public ViewedForce<PressedFacesView> {
     on_map_ = false;
     std::vector<std::uint32_t> cells;  // of the mesh
     for (const PressedFace& face : of_mesh_) cells.push_back(face.cell);
-    std::ranges::sort(cells);
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    const auto corners = body.corners_of(cells);
+    const CornersOfCells corners(body, std::move(cells));
     view_.rows.clear();
     for (const PressedFace& face : of_mesh_) {
-      const auto& cell = corners[static_cast<std::size_t>(std::ranges::lower_bound(cells, face.cell) - cells.begin())];
-      if (cell.empty()) continue;
+      if (!corners.is_there(face.cell)) continue;
       PressedFace& row = view_.rows.emplace_back(face);
-      for (std::uint32_t k = 0; k < face.count; ++k) row.corner[k] = FollowedCells::vertex_at(cell, face.corner[k]);
+      for (std::uint32_t k = 0; k < face.count; ++k) row.corner[k] = corners.vertex_at(face.cell, face.corner[k]);
     }
   }
   void leave_map() override {

@@ -84,9 +84,9 @@ std::vector<SelectionCount> count_selections(const SceneFile& scene, const Mesh&
   for (std::size_t k = 0; k < scene.fixed.size(); ++k) counter.held(fmt::format("/fixed/{}", k), scene.fixed[k]);
   for (const SceneDrive& drive : scene.driven) counter.vertices(drive.path, drive.vertices);
   for (const SceneForce& force : scene.forces) counter.vertices(force.path, force.vertices);
-  for_each_selection_of_forces(
-      const_cast<SceneFile&>(scene),
-      [&counter](const std::string& path, const VertexSelection& vertices) { counter.vertices(path, vertices); });
+  for_each_selection_of_forces(scene, [&counter](const std::string& path, const VertexSelection& vertices) {
+    counter.vertices(path, vertices);
+  });
   for (const SceneRegion& region : scene.regions) counter.cells(region.path + "/cells", region.cells);
   const Overloads count_choice{
       [&counter](const std::string& path, const CellSelection& cells) { counter.cells(path, cells); },

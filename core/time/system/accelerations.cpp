@@ -8,6 +8,7 @@
 #include "core/forces/term_damping.h"
 #include "core/plain/nan_maximum.h"
 #include "core/time/system/spring_sums.h"
+#include "core/time/system/term_tangents.h"
 
 namespace dartboard {
 namespace {
@@ -88,12 +89,7 @@ double frequency_bound(const SpringSystem& system) {
   for (std::size_t s = 0; s < system.springs.size(); ++s)
     for (const auto i : system.ends[s]) sum[i] += system.springs[s].stiffness;
   for (const ForceTerm* term : system.terms)
-    term->for_each_constant_tangent([&sum](ForceTerm::Nodes nodes, std::span<const Eigen::Matrix3d> blocks) {
-      // half of the sum of all blocks in a row of the piece: the sum is doubled below
-      for (std::size_t a = 0; a < nodes.size(); ++a)
-        for (std::size_t b = 0; b < nodes.size(); ++b)
-          sum[nodes[a]] += 0.5 * std::abs(blocks[a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b](0, 0));
-    });
+    term->for_each_constant_tangent(add_row_sums(sum, 0.5));  // the sum is doubled below
   double highest = 0.0;
   for (std::size_t i = 0; i < sum.size(); ++i)
     if (!system.fixed[i]) highest = max_or_nan(highest, 2.0 * sum[i] * system.inverse_mass[i]);

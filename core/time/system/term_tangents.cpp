@@ -112,6 +112,14 @@ void stiffness_of_stress(const SpringSystem& system, const TermTangents& tangent
   }
 }
 
+ForceTerm::VisitTangent add_row_sums(std::vector<double>& sum, double scale) {
+  return [&sum, scale](ForceTerm::Nodes nodes, std::span<const Eigen::Matrix3d> blocks) {
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t b = 0; b < nodes.size(); ++b)
+        sum[nodes[a]] += scale * std::abs(blocks[a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b](0, 0));
+  };
+}
+
 double largest_row_sum(const SpringSystem& system, const BlockMatrix& stiffness) {
   std::vector<double> sum(system.vertex_count(), 0.0);
   const NodePattern& pattern = stiffness.pattern;

@@ -36,4 +36,8 @@ void stiffness_of_stress(const SpringSystem& system, const TermTangents& tangent
 /// is above its root (Gershgorin).
 double largest_row_sum(const SpringSystem& system, const BlockMatrix& stiffness);
 
+/// Adds `scale` times the sum of the sizes of the blocks in each row of pieces whose blocks are multiples of the
+/// identity, as those of constant tangents are.
+ForceTerm::VisitTangent add_row_sums(std::vector<double>& sum, double scale);
+
 }  // namespace dartboard

@@ -77,11 +77,7 @@ Bounds viscous_rates(const SpringSystem& system) {
   for (const ForceTerm* term : system.terms)
     if (const TermDamping* damping = term->damping(); damping != nullptr && damping->is_viscous()) {
       dampers.resize(system.vertex_count(), 0.0);
-      damping->for_each_constant_tangent([&](ForceTerm::Nodes nodes, std::span<const Eigen::Matrix3d> blocks) {
-        for (std::size_t a = 0; a < nodes.size(); ++a)
-          for (std::size_t b = 0; b < nodes.size(); ++b)
-            dampers[nodes[a]] += std::abs(blocks[a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b](0, 0));
-      });
+      damping->for_each_constant_tangent(add_row_sums(dampers, 1.0));
     }
   Bounds b{unlimited, 0.0};
   for (std::size_t i = 0; i < system.vertex_count(); ++i) {
@@ -312,15 +308,13 @@ const StableStep& StableStepEstimate::refresh(const SpringSystem& system, std::s
   Bounds squared = largest_eigenvalue(stiffness, random_, excess);
   squared.lower = std::max(squared.lower, power_iteration(stiffness));
   latest_.across = across_bound(system, tangents_);
-  const auto has = [&system](bool strain_damping) {
-    return std::ranges::any_of(system.terms, [strain_damping](const ForceTerm* term) {
-      const TermDamping* damping = term->damping();
-      return strain_damping ? damping != nullptr && !damping->is_viscous() : damping == nullptr;
-    });
+  const auto is_undamped = [](const ForceTerm* term) { return term->damping() == nullptr; };
+  const auto is_damped_by_strain = [](const ForceTerm* term) {
+    return term->damping() != nullptr && !term->damping()->is_viscous();
   };
-  if (has(true))
+  if (std::ranges::any_of(system.terms, is_damped_by_strain))
     allow_for_stress(system, x);
-  else if (has(false))
+  else if (std::ranges::any_of(system.terms, is_undamped))
     latest_.across = unlimited;  // elements have no direction as springs have
   latest_.lower = scale_frequency_ * std::sqrt(std::max(0.0, squared.lower * (1.0 - rounding)));
   latest_.upper = std::min(scale_frequency_, scale_frequency_ * std::sqrt(std::max(0.0, squared.upper + rounding)));
