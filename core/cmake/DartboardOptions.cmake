@@ -41,6 +41,11 @@ if(DARTBOARD_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   target_compile_options(dartboard_options INTERFACE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # GCC would look through its memory for what it no longer needs from 128 MB on, which is a tenth of the time to compile
+  target_compile_options(dartboard_options INTERFACE --param=ggc-min-heapsize=524288)
+endif()
+
 # Under sanitizers compiling takes most of the time: twice as long with the checks of undefined behaviour as with those
 # of addresses alone. So the former are for code that computes (dartboard_folder), the latter for everything.
 if(DARTBOARD_SANITIZE)

@@ -1,10 +1,10 @@
 #include "reference/elements/held_factor.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstdint>
 #include <span>
 
+#include "core/plain/eigenvalues.h"
 #include "core/plain/error.h"
 #include "core/plain/random.h"
 

@@ -1,7 +1,8 @@
 #include "reference/elements/released_motion.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "core/plain/eigenvalues.h"
 
 namespace dartboard::reference {
 
@@ -27,7 +28,7 @@ ReleasedMotion::ReleasedMotion(const HeldFactor& solid, const VectorXd& force, s
   }
   MatrixXd stiffness(count, count);
   for (Index k = 0; k < count; ++k) stiffness.col(k) = v.leftCols(count).transpose() * solid.stiffness_times(v.col(k));
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(0.5 * (stiffness + stiffness.transpose()));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(MatrixXd(0.5 * (stiffness + stiffness.transpose())));
   omega_ = modes.eigenvalues().cwiseSqrt();
   // the start is the first vector
   const VectorXd part = size * modes.eigenvectors().row(0).transpose();

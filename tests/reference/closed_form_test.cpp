@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "core/plain/eigenvalues.h"
 
 namespace dartboard::reference::closed_form_test {
 namespace {
@@ -90,7 +91,7 @@ Eigen::VectorXd chain_squares(int n, double k, double m, double end_diagonal) {
     K(i, i) = i == 0 || i == n - 1 ? end_diagonal : 2.0;
     if (i > 0) K(i, i - 1) = K(i - 1, i) = -1.0;
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k / m * K).eigenvalues();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(k / m * K)).eigenvalues();
 }
 
 TEST(Chain, HasTheFrequenciesOfItsStiffnessMatrix) {

@@ -1,10 +1,10 @@
 #include "validation/solvers/solver_accuracy.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
+#include "core/plain/eigenvalues.h"
 #include "core/plain/nan_maximum.h"
 #include "core/plain/random.h"
 #include "core/time/solve/backward_error.h"

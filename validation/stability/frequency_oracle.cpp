@@ -1,10 +1,10 @@
 #include "validation/stability/frequency_oracle.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "core/plain/eigenvalues.h"
 #include "core/plain/nan_maximum.h"
 #include "core/plain/random.h"
 

@@ -341,7 +341,7 @@ class AirForce final : public ViewedForce<FacesInAir> {
   std::vector<Vector3d> begin_;  // by vertex: where it was
 };
 
-std::optional<ForceNeed> need(const SceneFile& scene, const Problem& problem) {
+std::optional<ForceNeed> air_need(const SceneFile& scene, const Problem& problem) {
   if (!scene.air) return {};
   if (problem.mesh.cell_count() == 0)
     scene.fail("/air", "is around chains alone, which have no faces", "a solid or a surface, or no such key");
@@ -394,7 +394,7 @@ ForceKind air_kind() {
             visit("/air/drag", scene.air->drag);
             visit("/air/velocity", scene.air->velocity.lpNorm<Eigen::Infinity>());
           },
-      .need = need};
+      .need = air_need};
 }
 
 }  // namespace dartboard

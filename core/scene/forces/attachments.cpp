@@ -66,7 +66,7 @@ class AttachmentsForce final : public ViewedForce<AttachmentsView> {
   std::unique_ptr<ForceTerm> term_;
 };
 
-std::optional<ForceNeed> need(const SceneFile& scene, const Problem& problem) {
+std::optional<ForceNeed> attachments_need(const SceneFile& scene, const Problem& problem) {
   if (scene.attachments.empty()) return {};
   std::vector<AttachedPoints> points = find_attachments(scene, problem);
   std::string held, why;
@@ -140,7 +140,7 @@ ForceKind attachments_kind() {
           [](const SceneFile& scene, const ForceKind::Number& visit) {
             for (const SceneAttachment& one : scene.attachments) visit(one.path + "/stiffness", one.stiffness);
           },
-      .need = need};
+      .need = attachments_need};
 }
 
 }  // namespace dartboard

@@ -31,7 +31,7 @@ class InnerEdgesForce final : public ViewedForce<View> {
   std::unique_ptr<ForceTerm> term_;
 };
 
-std::optional<ForceNeed> need(const SceneFile& scene, const Problem&) {
+std::optional<ForceNeed> bending_need(const SceneFile& scene, const Problem&) {
   const Bending bending = scene.bending;
   if (!bending.any()) return {};
   const bool is_quadratic = bending.rigidity > 0.0;
@@ -82,7 +82,7 @@ ForceKind bending_kind() {
       // clang-format on
       .is_in = [](const SceneFile& scene) { return scene.bending.any(); },
       .read = read,
-      .need = need};
+      .need = bending_need};
 }
 
 }  // namespace dartboard

@@ -60,7 +60,7 @@ class PressuresForce final : public ViewedForce<PressedFacesView> {
   FacePressureTerm term_{view_.rows, pressure_};
 };
 
-std::optional<ForceNeed> need(const SceneFile& scene, const Problem& problem) {
+std::optional<ForceNeed> pressures_need(const SceneFile& scene, const Problem& problem) {
   std::vector<PressedFace> faces = followed_faces(scene, problem.mesh);
   if (faces.empty()) return {};
   std::string why;
@@ -81,7 +81,7 @@ std::optional<ForceNeed> need(const SceneFile& scene, const Problem& problem) {
 ForceKind pressures_kind() {
   return {.name = "pressures",
           .is_in = [](const SceneFile& scene) { return std::ranges::any_of(scene.forces, &SceneForce::follows); },
-          .need = need};
+          .need = pressures_need};
 }
 
 }  // namespace dartboard

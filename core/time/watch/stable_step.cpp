@@ -1,10 +1,10 @@
 #include "core/time/watch/stable_step.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "core/forces/term_damping.h"
+#include "core/plain/eigenvalues.h"
 #include "core/plain/error.h"
 #include "core/plain/nan_maximum.h"
 #include "core/time/system/accelerations.h"

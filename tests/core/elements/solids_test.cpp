@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "core/elements/tetrahedra.h"
 #include "core/meshes/generators/mesh_generators.h"
+#include "core/plain/eigenvalues.h"
 #include "core/plain/random.h"
 #include "tests/support/bodies/element_body_for_tests.h"
 

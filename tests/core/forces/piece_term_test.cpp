@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <vector>
 
+#include "core/plain/eigenvalues.h"
 #include "tests/support/bodies/term_checks_for_tests.h"
 
 namespace dartboard::piece_term_test {
@@ -111,7 +111,7 @@ TEST(PieceTerm, ProjectsATangentThatIsNegativeSomewhere) {
     one.for_each_tangent({pressed}, compression, [&](ForceTerm::Nodes, std::span<const Matrix3d> blocks) {
       whole << blocks[0], blocks[1].transpose(), blocks[1], blocks[2];
     });
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(whole).eigenvalues().minCoeff();
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(whole)).eigenvalues().minCoeff();
   };
   EXPECT_LT(lowest(Compression::exact), -1.0);
   EXPECT_GT(lowest(Compression::projected), -1e-14);

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "core/elements/solids.h"
 #include "core/forces/term_damping.h"
 #include "core/meshes/generators/mesh_generators.h"
+#include "core/plain/eigenvalues.h"
 #include "core/plain/material.h"
 #include "core/time/explicit/frozen_damping.h"
 #include "core/time/integrators.h"

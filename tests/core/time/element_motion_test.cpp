@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 
 #include "core/meshes/generators/mesh_generators.h"
+#include "core/plain/eigenvalues.h"
 #include "core/time/integrators.h"
 #include "core/time/system/energy.h"
 #include "core/time/watch/divergence.h"

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "core/meshes/generators/mesh_generators.h"
+#include "core/plain/eigenvalues.h"
 #include "reference/elements/quadratic_solid.h"
 
 namespace dartboard::reference::released_motion_test {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "core/plain/eigenvalues.h"
 #include "reference/closed_form.h"
 
 namespace dartboard::frequency_oracle_test {

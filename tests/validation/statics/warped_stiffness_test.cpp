@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "core/plain/eigenvalues.h"
 #include "core/plain/error.h"
 #include "validation/statics/linearised.h"
 #include "validation/statics/static_problem.h"

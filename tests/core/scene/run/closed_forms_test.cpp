@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "core/plain/eigenvalues.h"
 #include "tests/support/moving_box.h"
 
 namespace dartboard::closed_forms_test {
@@ -222,7 +222,7 @@ TEST(ClosedForms, TwoBodiesHeldAtEachOtherSwingAsADoublePendulum) {
   constexpr double upper = 0.15;
   m << inertia[0] + mass[1] * upper * upper, upper * arm[1], upper * arm[1], inertia[1];
   k << g * (arm[0] + mass[1] * upper), 0, 0, g * arm[1];
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> modes(k, m);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(k, m);
   run(simulation);
   const Eigen::Vector2d start = modes.eigenvectors().transpose() * m * Eigen::Vector2d(amplitude, amplitude);
   Eigen::Vector2d phase = (modes.eigenvalues().cwiseSqrt() * simulation.time()).array().cos();

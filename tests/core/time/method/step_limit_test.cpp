@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "core/plain/eigenvalues.h"
 #include "core/time/integrators.h"
 #include "core/time/watch/stable_step.h"
 #include "tests/support/spring_bodies_for_tests.h"

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "core/meshes/generators/mesh_generators.h"
+#include "core/plain/eigenvalues.h"
 #include "core/time/system/accelerations.h"
 #include "core/time/system/energy.h"
 #include "tests/support/bodies/element_body_for_tests.h"

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
+#include "core/plain/eigenvalues.h"
 #include "core/time/integrators.h"
 #include "tests/support/bodies/element_body_for_tests.h"
 #include "tests/support/random_operations.h"
