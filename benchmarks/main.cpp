@@ -1,103 +1,25 @@
-// dartboard VERB: the one command line.
+// dartboard VERB: the verbs of scenes and meshes, over core alone. For all others it becomes dartboard-harness.
 
-#include <fmt/format.h>
+#include <optional>
 
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-#include <cerrno>
-#include <cstdio>
-#include <cstdlib>
-#include <exception>
-#include <iostream>
-#include <system_error>
-
-#include "benchmarks/cli/option_checks.h"
-#include "benchmarks/cli/verbs/verbs.h"
-#include "benchmarks/harness/tell.h"
-#include "core/plain/error.h"
-#include "core/time/solve/stop_request.h"
+#include "benchmarks/cli/hand_over.h"
+#include "benchmarks/cli/program.h"
+#include "benchmarks/cli/scenes/scene_verbs.h"
+#include "benchmarks/cli/verb_names.h"
 
 using namespace dartboard;
 
-namespace {
-
-constexpr std::size_t longest_message = 2000;  // letters
-
-// CLI11 would answer "a subcommand is required" to a misspelt verb.
-void require_known_verb(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::string verbs;
-  for (const CLI::App* verb : app.get_subcommands({})) {
-    if (verb->get_name() == argv[1]) return;
-    if (!verb->get_group().empty()) verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
-  }
-  throw InputError(fmt::format("there is no verb '{}'; the verbs are {}", argv[1], verbs));
-}
-
-/// Printed text may still wait in a buffer, for a disk that is full or a reader that is gone.
-/// returns  `exit_code`, or that of a failure when standard output did not take everything
-int written_out(int exit_code) {
-  if (exit_code > 128) {  // ended by a signal, perhaps because the terminal is gone
-    std::fflush(stdout);
-    return exit_code;
-  }
-  errno = 0;
-  std::cout.flush();
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return exit_code;
-  if (exit_code == exit_io) return exit_io;  // reported already
-  const std::string reason = errno == 0 ? "" : ": " + std::generic_category().message(errno);
-  tell(stderr, "dartboard: standard output cannot be written{}\n", reason);
-  return exit_io;
-}
-
-int run(int argc, char** argv) {
-  Outcome outcome;
-  for (int k = 0; k < argc; ++k) outcome.command_line += (k == 0 ? "dartboard" : " " + std::string(argv[k]));
-
-  CLI::App app("Scores a topology-based mechanical simulator on truth, speed and stability.", "dartboard");
-  app.require_subcommand(1);
-  app.set_version_flag("--version", DARTBOARD_VERSION);
-  app.footer(
-      "Exit status: 0 agrees, 1 disagrees, 2 wrong usage, 3 input or output failed, or a picture could not be drawn.");
-  add_reproduce(app, outcome);
-  add_validate(app, outcome);
-  add_bench(app, outcome);
-  add_simulate(app, outcome);
-  add_scene(app, outcome);
-  add_tradeoff(app, outcome);
-  add_recommend(app, outcome);
-  add_extremes(app, outcome);
-  add_explain(app, outcome);
-  add_explain_dt(app, outcome);
-  add_gallery(app, outcome);
-  add_mesh(app, outcome);
-  add_list(app, outcome);
-  add_measure(app, outcome);
-  check_common_options(app);
-
-  try {
-    require_known_verb(app, argc, argv);
-    app.parse(argc, argv);
-    return outcome.exit_code;
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    tell(stderr, "dartboard: {}\nRun with --help for more information.\n", one_line(error.what(), longest_message));
-    return exit_usage;
-  } catch (const InputError& error) {
-    tell(stderr, "dartboard: {}\n", one_line(error.what(), longest_message));
-    return exit_usage;
-  } catch (const std::exception& error) {  // IoError, and exceptions of the system when a disk or a process fails
-    tell(stderr, "dartboard: {}\n", one_line(error.what(), longest_message));
-    return exit_io;
-  }
-}
-
-}  // namespace
-
 int main(int argc, char** argv) {
-  const int exit_code = written_out(run(argc, argv));
-  // an abandoned factorisation may still use memory that the end of the process would free
-  if (work_left_behind()) std::_Exit(exit_code);
-  return exit_code;
+  return run_program(argc, argv, [argc, argv](CLI::App& app, Outcome& outcome) {
+    // the choice of a step for an accuracy is the harness's
+    const auto choose_step = [argv](SceneFile& scene, bool) -> std::optional<SettledAccuracy> {
+      if (scene.accuracy) hand_over_to_harness(argv);
+      return {};
+    };
+    if (argc > 1 && is_of_harness(argv[1])) hand_over_to_harness(argv);
+    add_simulate(app, outcome, choose_step);
+    add_scene(app, outcome);
+    add_explain(app, outcome, choose_step);
+    add_mesh(app, outcome);
+  });
 }

@@ -5,8 +5,6 @@
 #include <algorithm>
 
 #include "benchmarks/checkout/source_folder.h"
-#include "benchmarks/harness/clock.h"
-#include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/tell.h"
 #include "core/meshes/mesh_io.h"
 #include "core/plain/error.h"
@@ -62,21 +60,15 @@ fs::path scene_file(const std::string& given, std::span<const std::string> other
   throw IoError(fmt::format("{}: there is no such file; expected a scene{}", given, bare ? ", or one of " + hint : ""));
 }
 
-SceneFile read_named_scene(const std::string& given) {
-  SceneFile scene = read_scene(scene_file(given));
+SceneFile read_named_scene(const std::string& given) { return read_scene(scene_file(given)); }
+
+void tell_notices(const SceneFile& scene) {
   for (const BodySource& body : scene.bodies()) {
     if (!body.loaded) continue;
     for (const std::string& notice : body.loaded->notices)
       if (!notice.starts_with("skipped "))  // cells of a lower dimension, no part of a body: `mesh info` reports them
         tell(stderr, "notice: {}/mesh: {}\n", body.path, notice);
   }
-  return scene;
-}
-
-std::optional<SettledAccuracy> settle_with_progress(SceneFile& scene, bool quiet) {
-  Progress progress("choosing a step", 0, quiet);
-  return settle_accuracy(scene, thread_cpu_ns,
-                         [&progress](const std::string& integrator) { progress.advance(integrator); });
 }
 
 }  // namespace dartboard

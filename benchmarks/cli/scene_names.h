@@ -2,13 +2,11 @@
 // The scenes of the gallery by their names, for every verb that takes a scene file.
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/scene/file/scene_file.h"
-#include "validation/recommend/settle_accuracy.h"
 
 namespace dartboard {
 
@@ -28,12 +26,12 @@ std::vector<std::string> scene_names(const std::filesystem::path& folder = galle
 ///         and of the `others` that the verb knows
 std::filesystem::path scene_file(const std::string& given, std::span<const std::string> others = {});
 
-/// The scene in that file; notices about its mesh are printed on stderr.
+/// The scene in that file.
 ///
 /// throws  as scene_file and read_scene
 SceneFile read_named_scene(const std::string& given);
 
-/// settle_accuracy, with progress on standard error.
-std::optional<SettledAccuracy> settle_with_progress(SceneFile& scene, bool quiet);
+/// Print the notices about its meshes on standard error.
+void tell_notices(const SceneFile& scene);
 
 }  // namespace dartboard

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/base/counted.h"
@@ -12,6 +13,15 @@
 
 namespace dartboard {
 namespace fs = std::filesystem;
+namespace {
+
+std::optional<SettledAccuracy> settle(SceneFile& scene, const RecordPlan& plan, const Checkpoint* checkpoint) {
+  if (checkpoint == nullptr) return plan.choose_step ? plan.choose_step(scene) : std::nullopt;
+  if (checkpoint->notes().empty()) return {};
+  return nlohmann::json::parse(checkpoint->notes()).get<SettledAccuracy>();
+}
+
+}  // namespace
 
 /// Writes what the run hands out, and passes it on.
 class RecordedRun::Recorder : public RunWatcher {
@@ -33,8 +43,9 @@ class RecordedRun::Recorder : public RunWatcher {
   }
   void checkpoint(const Simulation& simulation, const RunProgress& progress) override {
     if (run_.output_) {
+      const std::string notes = run_.settled() ? nlohmann::json(*run_.settled()).dump() : "";
       Checkpoint::write(run_.folder() / checkpoint_name, run_.scene(), simulation, progress, run_.output_->so_far(),
-                        run_.notes());
+                        notes);
       run_.continues_after_ = simulation.steps_done();
     }
     next_.checkpoint(simulation, progress);
@@ -52,6 +63,7 @@ RecordedRun::RecordedRun(SceneFile scene, RecordPlan plan) : RecordedRun(std::mo
 RecordedRun::RecordedRun(SceneFile scene, RecordPlan plan, std::unique_ptr<Checkpoint> checkpoint,
                          std::optional<FolderClaim> claim)
     : plan_(std::move(plan)),
+      settled_(settle(scene, plan_, checkpoint.get())),
       scene_(std::make_unique<SceneFile>(std::move(scene))),
       simulation_(std::make_unique<Simulation>(*scene_)),
       warnings_(warnings_of(*scene_, *simulation_)),
@@ -65,7 +77,7 @@ RecordedRun RecordedRun::continued(const fs::path& folder, std::optional<std::ui
   std::optional<FolderClaim> claim = FolderClaim::of_ended_run(folder);
   auto checkpoint = std::make_unique<Checkpoint>(folder / checkpoint_name);
   SceneFile scene = checkpoint->scene();
-  RecordPlan plan{folder, most_steps, checkpoint->notes()};
+  RecordPlan plan{.folder = folder, .most_steps = most_steps};
   RecordedRun run(std::move(scene), std::move(plan), std::move(checkpoint), std::move(claim));
   const std::string done = counted(run.first_step(), "step");
   if (run.first_step() >= run.simulation().step_count())

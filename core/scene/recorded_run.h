@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,13 +16,15 @@
 #include "core/scene/restart/checkpoint.h"
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/scene_verdict.h"
+#include "core/scene/settled_accuracy.h"
 
 namespace dartboard {
 
 struct RecordPlan {
   std::filesystem::path folder{};             // new or empty; without one nothing is written
   std::optional<std::uint64_t> most_steps{};  // after which the run is cut short
-  std::string notes{};                        // of the caller, stored in checkpoints
+  // gives a scene that asks for an accuracy its step; without it, such a scene needs one already
+  std::function<std::optional<SettledAccuracy>(SceneFile&)> choose_step{};
 };
 
 /// The files of a run are those of `SceneOutput`, and the checkpoint that it can be continued from.
@@ -29,7 +32,7 @@ class RecordedRun {
  public:
   /// A run from the start of a scene.
   ///
-  /// throws  as Simulation
+  /// throws  as Simulation and `choose_step`
   explicit RecordedRun(SceneFile scene, RecordPlan plan = {});
   /// The rest of a run that left a checkpoint in its folder. Its output will be that of an uninterrupted run.
   ///
@@ -42,7 +45,8 @@ class RecordedRun {
   const Simulation& simulation() const { return *simulation_; }
   /// The warnings before the first step.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  const std::string& notes() const { return plan_.notes; }
+  /// The choice of the step, if one was made; a continued run keeps that of its start.
+  const std::optional<SettledAccuracy>& settled() const { return settled_; }
   const std::filesystem::path& folder() const { return plan_.folder; }
   /// The numbers of steps taken when the run begins, above 0 if it is continued, and when it ends.
   std::uint64_t first_step() const { return checkpoint_ ? checkpoint_->steps_done() : 0; }
@@ -81,6 +85,7 @@ class RecordedRun {
   void judge();
 
   RecordPlan plan_;
+  std::optional<SettledAccuracy> settled_;
   std::unique_ptr<SceneFile> scene_;
   std::unique_ptr<Simulation> simulation_;
   std::vector<std::string> warnings_;

@@ -516,7 +516,7 @@ def find_sites(root, rooms, compile_commands, workers, say, units=None):
         commands = {entry["file"]: entry["command"] for entry in json.load(file)}
     commands = {file: command for file, command in sorted(commands.items())
                 if os.path.relpath(file, root).startswith(tuple(room + "/" for room in rooms))}
-    general = next(command for file, command in commands.items() if file.endswith("benchmarks/main.cpp"))
+    general = next(command for file, command in commands.items() if file.endswith("benchmarks/harness_main.cpp"))
     prelude = precompile(root, rooms, general, os.path.dirname(compile_commands))
     if units is not None:
         commands = {os.path.join(root, unit): general for unit in units}

@@ -25,8 +25,8 @@ class Wrapper(unittest.TestCase):
         self.tools = os.path.join(self.home, "tools")
         os.mkdir(self.tools)
         # every package is there, and cmake says when it ran
-        self.tool("dpkg-query", "echo installed")
-        self.tool("cmake", 'echo begin >> "$LOG"; sleep 0.3; echo end >> "$LOG"')
+        self.tool("dpkg-query", 'for package; do :; done; echo "$package" >> "$LOG.packages"; echo installed')
+        self.tool("cmake", 'echo begin >> "$LOG"; echo "$*" >> "$LOG.cmake"; sleep 0.3; echo end >> "$LOG"')
 
     def tearDown(self):
         self.folder.cleanup()
@@ -45,7 +45,7 @@ class Wrapper(unittest.TestCase):
 
     def answer(self, *arguments):
         process = self.start(*arguments)
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=600)
         return process.returncode, out, err
 
     def nothing_was_set_up(self):
@@ -72,17 +72,64 @@ class Wrapper(unittest.TestCase):
 
     def test_of_two_at_once_one_waits(self):
         calls = [self.start("build"), self.start("build")]
-        said = [call.communicate(timeout=60)[1] for call in calls]
+        said = [call.communicate(timeout=600)[1] for call in calls]
         self.assertEqual(sum("waiting for it" in text for text in said), 1, said)
         with open(os.path.join(self.home, "log"), encoding="utf-8") as log:
             self.assertEqual(log.read().split(), ["begin", "end"] * 4)
 
-    def test_a_run_does_not_keep_others_waiting(self):
+    def program(self, name, text):
         release = os.path.join(self.home, "build", "release")
-        os.makedirs(release)
-        with open(os.path.join(release, "dartboard"), "w", encoding="utf-8") as file:
-            file.write("#!/bin/sh\necho running\nread answer\n")
+        os.makedirs(release, exist_ok=True)
+        with open(os.path.join(release, name), "w", encoding="utf-8") as file:
+            file.write("#!/bin/sh\n" + text + "\n")
         os.chmod(file.name, 0o755)
+
+    def logged(self, name):
+        with open(os.path.join(self.home, "log." + name), encoding="utf-8") as log:
+            return log.read().split("\n")[:-1]
+
+    def test_a_scene_is_run_without_the_harness_and_its_packages(self):
+        self.program("dartboard", 'echo "scenes: $*"')
+        self.assertEqual(self.answer("simulate", "beam.json")[:2], (0, "scenes: simulate beam.json\n"))
+        configured, built = self.logged("cmake")
+        self.assertIn("-DDARTBOARD_HARNESS=OFF -DDARTBOARD_TESTS=OFF", configured)
+        self.assertTrue(built.endswith("--target dartboard"), built)
+        packages = self.logged("packages")
+        self.assertIn("libeigen3-dev", packages)
+        for other in ("libcgal-dev", "libsundials-dev", "libgtest-dev", "valgrind"):
+            self.assertNotIn(other, packages)
+
+    def test_other_verbs_run_the_program_that_has_them(self):
+        self.program("dartboard-harness", 'echo "every verb: $*"')
+        self.assertEqual(self.answer("recommend", "beam.json")[:2], (0, "every verb: recommend beam.json\n"))
+        configured, built = self.logged("cmake")
+        self.assertIn("-DDARTBOARD_HARNESS=ON -DDARTBOARD_TESTS=OFF", configured)
+        self.assertTrue(built.endswith("--target dartboard_harness"), built)
+        self.assertIn("libcgal-dev", self.logged("packages"))
+        self.assertNotIn("valgrind", self.logged("packages"))
+
+    def test_the_suite_builds_all_of_it(self):
+        self.answer("build")
+        configured, built = self.logged("cmake")
+        self.assertIn("-DDARTBOARD_HARNESS=ON -DDARTBOARD_TESTS=ON", configured)
+        self.assertTrue(built.endswith("--target all"), built)
+        self.assertIn("valgrind", self.logged("packages"))
+
+    def test_what_was_built_before_stays_part_of_the_build(self):
+        self.program("dartboard", "exit 0")
+        with open(os.path.join(self.home, "build", "release", "CMakeCache.txt"), "w", encoding="utf-8"):
+            pass
+        self.answer("mesh")
+        self.assertNotIn("HARNESS", self.logged("cmake")[0])
+
+    def test_the_program_of_scenes_can_ask_for_the_one_that_has_every_verb(self):
+        self.program("dartboard", 'exec "$DARTBOARD_SCRIPT" --harness "$@"')
+        self.program("dartboard-harness", 'echo "every verb: $*"')
+        self.assertEqual(self.answer("simulate", "a b.json")[:2], (0, "every verb: simulate a b.json\n"))
+        self.assertEqual([line.split()[-1] for line in self.logged("cmake")[1::2]], ["dartboard", "dartboard_harness"])
+
+    def test_a_run_does_not_keep_others_waiting(self):
+        self.program("dartboard", "echo running\nread answer")
         first = self.start("mesh")
         self.assertEqual(first.stdout.readline(), "running\n")
         second = self.start("mesh")

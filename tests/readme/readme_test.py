@@ -2,9 +2,10 @@
 """Are README.md and the page of the first scene true? Tables against the run they cite, links, scenes with what they print,
 and the program.
 
-    readme_test.py PROGRAM BUILD_FOLDER
+    readme_test.py PROGRAM BUILD_FOLDER [NAME]
 
-PROGRAM is the built dartboard, BUILD_FOLDER the folder for find_package. Standard library only.
+PROGRAM is the built dartboard, BUILD_FOLDER the folder for find_package, NAME that of a test without its "test_". Standard
+library only.
 """
 
 import json
@@ -181,4 +182,4 @@ class FirstScene(unittest.TestCase):
 
 if __name__ == "__main__":
     PROGRAM, BUILD = [os.path.abspath(path) for path in sys.argv[1:3]]
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + ["-k" + name for name in sys.argv[3:]])

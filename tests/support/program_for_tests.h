@@ -18,9 +18,9 @@ struct Answer {
 const std::string& program_path();
 const std::string& folders_file();
 
-/// Runs the program with the arguments, through a shell.
-inline Answer run(const std::string& arguments, const char* redirect = "2>&1") {
-  const std::string command = program_path() + " " + arguments + " " + redirect;
+/// Runs a program with the arguments, through a shell.
+inline Answer run_at(const std::string& program, const std::string& arguments, const char* redirect = "2>&1") {
+  const std::string command = program + " " + arguments + " " + redirect;
   FILE* pipe = popen(command.c_str(), "r");
   Answer answer;
   std::array<char, 4096> buffer;
@@ -28,6 +28,10 @@ inline Answer run(const std::string& arguments, const char* redirect = "2>&1") {
   const int status = pclose(pipe);
   answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return answer;
+}
+/// Runs the program under test.
+inline Answer run(const std::string& arguments, const char* redirect = "2>&1") {
+  return run_at(program_path(), arguments, redirect);
 }
 
 }  // namespace dartboard

@@ -2,7 +2,7 @@
 
 #include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/cli/bench/benches.h"
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/contact/bench_contact_study.h"

@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "benchmarks/cli/bench/benches.h"
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/paper/paper_bodies.h"

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "benchmarks/cli/bench/benches.h"
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/paper/paper_bodies.h"

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "benchmarks/cli/bench/benches.h"
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/paper/paper_bodies.h"
 #include "benchmarks/studies/topology/bench_topology_study.h"
 #include "reference/cgal/cgal_body.h"

@@ -4,7 +4,7 @@
 namespace dartboard {
 
 void add_bench(CLI::App& app, Outcome& outcome) {
-  auto* bench = app.add_subcommand("bench", "Measure one part against its targets and its peers.");
+  auto* bench = app.get_subcommand("bench");
   bench->require_subcommand(1);
   add_bench_ablation(*bench, app, outcome);
   add_bench_topology(*bench, app, outcome);

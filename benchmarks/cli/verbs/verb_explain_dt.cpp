@@ -6,12 +6,12 @@
 #include <string>
 
 #include "benchmarks/cli/scene_names.h"
+#include "benchmarks/cli/studies/settle_with_progress.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/scenes/step_explanation.h"
-#include "validation/recommend/settle_accuracy.h"
 
 namespace dartboard {
 namespace {
@@ -24,6 +24,7 @@ struct ExplainDtOptions {
 void explain_dt(const ExplainDtOptions& options, Outcome& outcome) {
   SceneFile scene = read_named_scene(options.scene);
   const std::optional<SettledAccuracy> settled = settle_with_progress(scene, options.json);
+  tell_notices(scene);
   const StepExplanation explanation = explain_step(scene);
   outcome.exit_code = scene.step <= explanation.limit.stable ? exit_agrees : exit_disagrees;
   if (options.json) {
@@ -40,9 +41,7 @@ void explain_dt(const ExplainDtOptions& options, Outcome& outcome) {
 
 void add_explain_dt(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<ExplainDtOptions>();
-  auto* verb = app.add_subcommand(
-      "explain-dt",
-      "Which springs, elements and vertices limit the time step of a scene, and what changing them would buy.");
+  auto* verb = app.get_subcommand("explain-dt");
   verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys), or the name of one of the gallery")
       ->required();
   verb->add_flag("--json", options->json, "print JSON");

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "benchmarks/cli/study_names.h"
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/study_names.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/studies/extremes/extremes_study.h"
 
@@ -16,10 +16,7 @@ void add_extremes(CLI::App& app, Outcome& outcome) {
     ExtremesPlan plan;
     std::optional<std::size_t> child_from;  // of a child: the first run to make
   };
-  auto* verb = app.add_subcommand(
-      "extremes",
-      "Run every integrator at the extremes, of our own bodies or of scenes at steps of every length: each run is right, "
-      "warned of, or stopped with a diagnosis.");
+  auto* verb = app.get_subcommand("extremes");
   auto options = study_options<Options>(
       *verb,
       {.quick = "every third value, coarser maps, shorter runs; of scenes half of the steps", .keeps_folder = false});

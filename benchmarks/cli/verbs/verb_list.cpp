@@ -59,7 +59,7 @@ void add_list(CLI::App& app, Outcome&) {
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  auto* verb = app.add_subcommand("list", "List scenes, contenders, integrators and claims.");
+  auto* verb = app.get_subcommand("list");
   verb->add_option("WHAT", options->kinds, "scenes, contenders, integrators or claims; all by default")
       ->check(CLI::IsMember({"scenes", "contenders", "integrators", "claims"}));
   verb->add_flag("--json", options->json, "print JSON");

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "benchmarks/cli/scene_names.h"
-#include "benchmarks/cli/study_names.h"
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/study_names.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/studies/models/model_advice_study.h"
 #include "benchmarks/studies/tradeoff/audit_study.h"
@@ -64,10 +64,7 @@ void recommend_verb(const RecommendOptions& options, Outcome& outcome) {
 }  // namespace
 
 void add_recommend(CLI::App& app, Outcome& outcome) {
-  auto* verb = app.add_subcommand(
-      "recommend",
-      "The cheapest integrator and step for an error, predicted from short runs of the scene; or, of a bar held at one "
-      "end, the cheapest model and mesh, too.");
+  auto* verb = app.get_subcommand("recommend");
   auto options =
       study_options<RecommendOptions>(*verb, {.quick = "audit a few small scenes only",
                                               .seed = "the audit",

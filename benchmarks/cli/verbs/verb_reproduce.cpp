@@ -1,6 +1,6 @@
 #include <string>
 
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/paper/paper_bodies.h"
 #include "benchmarks/studies/reproduce/reproduce_study.h"
@@ -12,10 +12,7 @@ void add_reproduce(CLI::App& app, Outcome& outcome) {
   struct Options : StudyOptions {
     std::string part;
   };
-  auto* verb = app.add_subcommand(
-      "reproduce",
-      "Gate and time the paper's walks on a body of its size and answer its claims; time a larger body on one core and "
-      "on all; then put all integrators to the extremes and answer ours.");
+  auto* verb = app.get_subcommand("reproduce");
   auto options =
       study_options<Options>(*verb, {.quick = "fewer processes and rounds, a third of the extremes: some minutes less",
                                      .seed = "the order in which contenders take turns"});

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "benchmarks/checkout/source_folder.h"
-#include "benchmarks/cli/study_names.h"
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/study_names.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
@@ -73,10 +73,7 @@ void add_measure_models(CLI::App& app) {
 }  // namespace
 
 void add_tradeoff(CLI::App& app, Outcome& outcome) {
-  auto* verb = app.add_subcommand(
-      "tradeoff",
-      "Measure what accuracy costs on a scene: every integrator and every step; or, of a bar held at one end, every "
-      "model and mesh.");
+  auto* verb = app.get_subcommand("tradeoff");
   auto options = study_options<TradeoffOptions>(
       *verb, {.quick = "short runs, few repetitions", .seed = "the order of the integrators"});
   verb->add_option("SCENE", options->scene,

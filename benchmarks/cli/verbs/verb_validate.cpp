@@ -1,8 +1,8 @@
 #include <optional>
 #include <string>
 
-#include "benchmarks/cli/named_mesh.h"
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/named_mesh.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/studies/topology/topology_study.h"
 
@@ -48,7 +48,7 @@ void add_validate_topology(CLI::App& validate, Outcome& outcome) {
 }  // namespace
 
 void add_validate(CLI::App& app, Outcome& outcome) {
-  auto* verb = app.add_subcommand("validate", "Compare with independent implementations.");
+  auto* verb = app.get_subcommand("validate");
   verb->require_subcommand(1);
   add_validate_topology(*verb, outcome);
   add_validate_conservation(*verb, outcome);

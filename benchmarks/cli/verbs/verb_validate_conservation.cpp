@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "benchmarks/checkout/source_folder.h"
-#include "benchmarks/cli/named_mesh.h"
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/named_mesh.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/studies/conservation/conservation_study.h"
 

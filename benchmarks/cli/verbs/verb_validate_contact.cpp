@@ -1,7 +1,7 @@
 #include <optional>
 #include <string>
 
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/studies/contact/contact_study.h"
 #include "benchmarks/studies/contact/ipctk_study.h"

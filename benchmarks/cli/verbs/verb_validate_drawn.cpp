@@ -2,7 +2,7 @@
 #include <string>
 
 #include "benchmarks/cli/scene_names.h"
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/studies/drawn/drawn_study.h"
 

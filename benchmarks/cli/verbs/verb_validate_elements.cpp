@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "benchmarks/checkout/source_folder.h"
-#include "benchmarks/cli/named_mesh.h"
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/named_mesh.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"

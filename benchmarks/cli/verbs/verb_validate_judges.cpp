@@ -1,4 +1,4 @@
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/studies/judges/judges_study.h"
 

@@ -1,5 +1,5 @@
-#include "benchmarks/cli/study_names.h"
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/study_names.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/studies/order/order_study.h"
 

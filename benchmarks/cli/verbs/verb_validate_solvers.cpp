@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "benchmarks/checkout/source_folder.h"
-#include "benchmarks/cli/study_options.h"
+#include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/studies/solvers/solver_study.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// All verbs; each has a file of its own.
+// The verbs of the harness; each has a file of its own.
 
 #include <CLI/App.hpp>
 
@@ -7,20 +7,19 @@
 
 namespace dartboard {
 
+/// Adds these verbs, those of benchmarks/cli/scenes, and the hidden ones of processes that time.
+void add_all_verbs(CLI::App& app, Outcome& outcome);
+
 // Each adds a verb whose callback does the work and stores its exit code in `outcome`, which must outlive the parse.
 void add_reproduce(CLI::App& app, Outcome& outcome);
 void add_measure(CLI::App& app, Outcome& outcome);
 void add_validate(CLI::App& app, Outcome& outcome);
 void add_bench(CLI::App& app, Outcome& outcome);
-void add_simulate(CLI::App& app, Outcome& outcome);
-void add_scene(CLI::App& app, Outcome& outcome);
 void add_tradeoff(CLI::App& app, Outcome& outcome);
 void add_recommend(CLI::App& app, Outcome& outcome);
 void add_extremes(CLI::App& app, Outcome& outcome);
-void add_explain(CLI::App& app, Outcome& outcome);
 void add_explain_dt(CLI::App& app, Outcome& outcome);
 void add_gallery(CLI::App& app, Outcome& outcome);
-void add_mesh(CLI::App& app, Outcome& outcome);
 void add_list(CLI::App& app, Outcome& outcome);
 
 // The parts of `validate`; that on elements also gives `app` the hidden verb that its child processes run.

@@ -200,9 +200,28 @@ TEST_F(RecordedRuns, ThatHaveNoStepLeftAreNotContinued) {
   EXPECT_EQ(refusal("part"), "continued");
 }
 
-TEST_F(RecordedRuns, KeepTheNotesOfTheirCaller) {
-  { RecordedRun(parse(cut_box()), {.folder = folder_ / "run", .most_steps = 7, .notes = "chosen by hand"}).run(); }
-  EXPECT_EQ(RecordedRun::continued(folder_ / "run").notes(), "chosen by hand");
+TEST_F(RecordedRuns, OfASceneThatAsksForAnAccuracyHaveTheStepChosenForIt) {
+  Json json = cut_box();
+  const double step = json.at("step");
+  json.erase("step");
+  json["accuracy"] = 0.001;
+  EXPECT_THROW(RecordedRun(parse(json)), InputError);
+  const auto choose = [step](SceneFile& scene) {
+    EXPECT_EQ(scene.accuracy, 0.001);
+    scene.step = step;
+    scene.integrator = "verlet";
+    return std::optional(SettledAccuracy{.accuracy = 0.001, .integrator = "verlet", .step = step, .predicted_s = 17.0});
+  };
+  {
+    RecordedRun run(parse(json), {.folder = folder_ / "run", .most_steps = 7, .choose_step = choose});
+    EXPECT_EQ(run.simulation().step_count(), 10u);
+    run.run();
+  }
+  const RecordedRun continued = RecordedRun::continued(folder_ / "run");
+  ASSERT_TRUE(continued.settled());
+  EXPECT_EQ(continued.settled()->integrator, "verlet");
+  EXPECT_EQ(continued.settled()->step, step);
+  EXPECT_EQ(continued.settled()->predicted_s, 17.0);
 }
 
 TEST_F(RecordedRuns, OfOtherCellsThanTheScenesAreNotJudged) {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/cli/scenes/scene_verbs.h"
 #include "benchmarks/figures/body_picture.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
@@ -221,7 +221,7 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
     bool json = false, formats = false;
   };
   auto options = std::make_shared<Options>();
-  auto* verb = app.add_subcommand("mesh", "Look at a mesh file, or at the formats that are read.");
+  auto* verb = app.get_subcommand("mesh");
   verb->require_subcommand(0, 1);
   auto* formats = verb->add_flag("--formats", options->formats, "list the formats that are read and written");
   verb->add_flag("--json", options->json, "print JSON")->needs(formats);

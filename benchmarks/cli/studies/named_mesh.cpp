@@ -1,4 +1,4 @@
-#include "benchmarks/cli/named_mesh.h"
+#include "benchmarks/cli/studies/named_mesh.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "benchmarks/studies/scenes/simulation_json.h"
+#include "benchmarks/cli/scenes/simulation_json.h"
 
 #include <gtest/gtest.h>
 

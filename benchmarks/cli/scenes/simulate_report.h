@@ -13,7 +13,7 @@
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/scene_verdict.h"
 #include "core/scene/run/simulation.h"
-#include "validation/recommend/settle_accuracy.h"
+#include "core/scene/settled_accuracy.h"
 
 namespace dartboard {
 

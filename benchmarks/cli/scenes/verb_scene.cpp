@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "benchmarks/cli/scene_names.h"
-#include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/cli/scenes/scene_verbs.h"
+#include "benchmarks/cli/scenes/simulation_json.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
-#include "benchmarks/studies/scenes/simulation_json.h"
 #include "core/base/counted.h"
 #include "core/scene/file/keys/scene_pages.h"
 #include "core/scene/file/scene_file.h"
@@ -22,6 +22,7 @@ namespace {
 
 void check_scene(const std::string& given, bool as_json) {
   SceneFile scene = read_named_scene(given);
+  tell_notices(scene);
   if (scene.accuracy) {
     // all but the step can be checked; any step will do for that
     scene.step = scene.duration > 0.0 ? scene.duration : 1.0;
@@ -64,7 +65,7 @@ void add_scene(CLI::App& app, Outcome& outcome) {
     std::string check;
   };
   auto options = std::make_shared<Options>();
-  auto* verb = app.add_subcommand("scene", "What a scene file may say.");
+  auto* verb = app.get_subcommand("scene");
   auto* what = verb->add_option_group("what");
   what->add_flag("--schema", options->schema, "print the JSON Schema of scene files");
   what->add_flag("--keys", options->keys, "print the reference page of all keys, in Markdown");

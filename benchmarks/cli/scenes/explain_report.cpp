@@ -1,18 +1,18 @@
-#include "benchmarks/studies/scenes/explain_report.h"
+#include "benchmarks/cli/scenes/explain_report.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/cli/scenes/simulation_json.h"
 #include "benchmarks/harness/table.h"
 #include "benchmarks/harness/tell.h"
-#include "benchmarks/studies/scenes/simulation_json.h"
 
 namespace dartboard {
 namespace {
 
-std::string counted(const ScenePlan& plan) {
+std::string counts_of(const ScenePlan& plan) {
   return fmt::format("{} vertices, {} edges, {} faces, {} cells, {} darts", plan.counts.vertices, plan.counts.edges,
                      plan.counts.faces, plan.counts.cells, plan.darts);
 }
@@ -77,7 +77,7 @@ std::string sleep_text(const SceneSleep& sleep) {
 }  // namespace
 
 std::string to_text(const SceneFile& scene, const ScenePlan& plan, const std::optional<MeasuredSteps>& measured) {
-  std::string text = fmt::format("{}\n{}; {}; {} steps of {:.6g} s\n", one_line(scene.name), plan.map, counted(plan),
+  std::string text = fmt::format("{}\n{}; {}; {} steps of {:.6g} s\n", one_line(scene.name), plan.map, counts_of(plan),
                                  plan.steps, scene.step);
   for (const SelectionCount& count : plan.selections) text += to_string(count) + "\n";
   for (const std::string& remark : plan.remarks) text += remark + "\n";

@@ -1,6 +1,6 @@
 // The report of `simulate` on a run: every figure in its own place.
 
-#include "benchmarks/studies/scenes/simulate_report.h"
+#include "benchmarks/cli/scenes/simulate_report.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/studies/scenes/simulation_json.h"
+#include "benchmarks/cli/scenes/simulation_json.h"
 #include "core/scene/run/body_in_words.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/tables_for_tests.h"

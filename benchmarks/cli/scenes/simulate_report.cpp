@@ -1,4 +1,4 @@
-#include "benchmarks/studies/scenes/simulate_report.h"
+#include "benchmarks/cli/scenes/simulate_report.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "benchmarks/cli/scenes/simulation_json.h"
 #include "benchmarks/harness/json_number.h"
 #include "benchmarks/harness/tell.h"
-#include "benchmarks/studies/scenes/simulation_json.h"
 #include "core/base/counted.h"
 #include "core/scene/output/scene_output.h"
 #include "core/scene/run/body_in_words.h"

@@ -1,6 +1,6 @@
 // The report of `explain` on a plan: every figure in its own place.
 
-#include "benchmarks/studies/scenes/explain_report.h"
+#include "benchmarks/cli/scenes/explain_report.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,8 @@
 
 #include "benchmarks/cli/interrupt.h"
 #include "benchmarks/cli/scene_names.h"
-#include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/cli/scenes/scene_verbs.h"
+#include "benchmarks/cli/scenes/simulate_report.h"
 #include "benchmarks/figures/album.h"
 #include "benchmarks/figures/film.h"
 #include "benchmarks/harness/clock.h"
@@ -20,7 +21,6 @@
 #include "benchmarks/harness/manifest.h"
 #include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/tell.h"
-#include "benchmarks/studies/scenes/simulate_report.h"
 #include "core/base/thread_team.h"
 #include "core/plain/error.h"
 #include "core/scene/file/scene_file.h"
@@ -28,7 +28,6 @@
 #include "core/scene/recorded_run.h"
 #include "core/scene/run/scene_warnings.h"
 #include "core/time/integrators.h"
-#include "validation/recommend/settle_accuracy.h"
 
 namespace dartboard {
 namespace {
@@ -64,16 +63,17 @@ class Watcher : public RunWatcher {
   std::uint64_t steps_per_report_;
 };
 
-/// A run from its start or from a checkpoint; the choice of its step, where the scene asks for an accuracy, is in its
-/// notes.
-RecordedRun make_run(const SimulateOptions& options) {
+RecordedRun make_run(const SimulateOptions& options, const StepChoice& choose_step) {
   if (!options.continued.empty()) return RecordedRun::continued(options.continued, options.most_steps());
   SceneFile scene = read_named_scene(options.scene);
   if (options.seed) reseed(scene, *options.seed);
-  const std::optional<SettledAccuracy> settled = settle_with_progress(scene, options.json);
-  return RecordedRun(std::move(scene), {.folder = options.out,
-                                        .most_steps = options.most_steps(),
-                                        .notes = settled ? json_text(nlohmann::json(*settled)) : ""});
+  const auto choose = [&](SceneFile& it) {
+    std::optional<SettledAccuracy> settled = choose_step(it, options.json);
+    tell_notices(it);
+    return settled;
+  };
+  return RecordedRun(std::move(scene),
+                     {.folder = options.out, .most_steps = options.most_steps(), .choose_step = choose});
 }
 
 /// The manifest of a continued run, with the inputs of the continuation.
@@ -102,13 +102,11 @@ nlohmann::json manifest_of(const SceneFile& scene, const SimulateOptions& option
   return begin_manifest(facts);
 }
 
-void simulate(const SimulateOptions& options, Outcome& outcome) {
-  RecordedRun run = make_run(options);
+void simulate(const SimulateOptions& options, const StepChoice& choose_step, Outcome& outcome) {
+  RecordedRun run = make_run(options, choose_step);
   use_threads(options.threads);  // a step for an accuracy is chosen on one thread
   const SceneFile& scene = run.scene();
   const Simulation& simulation = run.simulation();
-  std::optional<SettledAccuracy> settled;
-  if (!run.notes().empty()) settled = nlohmann::json::parse(run.notes()).get<SettledAccuracy>();
   const std::string opening = opening_of(scene, simulation, step_in_words(simulation, scene));
   // in a continued run, too, pictures begin at its start, where nothing has been cut
   std::optional<Album> album;
@@ -122,7 +120,7 @@ void simulate(const SimulateOptions& options, Outcome& outcome) {
     manifest = continued_manifest(options.continued, outcome);
   } else if (!options.out.empty()) {
     manifest = manifest_of(scene, options, outcome);
-    if (settled) manifest["settled"] = *settled;
+    if (run.settled()) manifest["settled"] = *run.settled();
   }
   run.open();
   const auto write_manifest = [&] {
@@ -150,7 +148,7 @@ void simulate(const SimulateOptions& options, Outcome& outcome) {
   SimulationReport report{.scene = scene,
                           .simulation = simulation,
                           .result = run.result(),
-                          .settled = settled,
+                          .settled = run.settled(),
                           .expected = run.expected(),
                           .unjudged = run.unjudged(),
                           .wall_s = static_cast<double>(steady_wall_ns() - wall) * 1e-9,
@@ -196,9 +194,9 @@ void simulate(const SimulateOptions& options, Outcome& outcome) {
 
 }  // namespace
 
-void add_simulate(CLI::App& app, Outcome& outcome) {
+void add_simulate(CLI::App& app, Outcome& outcome, StepChoice choose_step) {
   auto options = std::make_shared<SimulateOptions>();
-  auto* verb = app.add_subcommand("simulate", "Run a scene: a body that moves, and is cut, torn or eroded meanwhile.");
+  auto* verb = app.get_subcommand("simulate");
   auto* scene = verb->add_option("SCENE", options->scene,
                                  "a scene file (dartboard scene --keys), or the name of one of the gallery");
   auto* out =
@@ -221,12 +219,12 @@ void add_simulate(CLI::App& app, Outcome& outcome) {
   verb->add_flag("--quick", options->quick, "stop after 100 steps");
   verb->add_option("--seed", options->seed, "added to the seeds of random selections [0]")->excludes(continued);
   verb->add_flag("--json", options->json, "print JSON");
-  verb->callback([options, &outcome] {
+  verb->callback([options, choose_step = std::move(choose_step), &outcome] {
     if (options->scene.empty() && options->continued.empty()) throw CLI::RequiredError("SCENE");
     if (options->out.empty() && options->continued.empty())
       for (const auto& [asked, name] : {std::pair(options->picture, "--picture"), {options->film, "--film"}})
         if (asked) throw CLI::RequiresError(name, "--out or --continue");
-    simulate(*options, outcome);
+    simulate(*options, choose_step, outcome);
   });
 }
 

@@ -5,19 +5,19 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/cli/scene_names.h"
-#include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/cli/scenes/explain_report.h"
+#include "benchmarks/cli/scenes/scene_verbs.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/statistics.h"
 #include "benchmarks/harness/tell.h"
-#include "benchmarks/studies/scenes/explain_report.h"
 #include "core/scene/plan/scene_plan.h"
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/simulation.h"
-#include "validation/recommend/settle_accuracy.h"
 
 namespace dartboard {
 namespace {
@@ -48,9 +48,10 @@ MeasuredSteps measured_steps(const SceneFile& scene) {
   return measured;
 }
 
-void explain(const ExplainOptions& options, Outcome& outcome) {
+void explain(const ExplainOptions& options, const StepChoice& choose_step, Outcome& outcome) {
   SceneFile scene = read_named_scene(options.scene);
-  const std::optional<SettledAccuracy> settled = settle_with_progress(scene, options.json);
+  const std::optional<SettledAccuracy> settled = choose_step(scene, options.json);
+  tell_notices(scene);
   const ScenePlan plan = plan_scene(scene);
   std::optional<MeasuredSteps> measured;
   if (options.measure) measured = measured_steps(scene);
@@ -67,15 +68,15 @@ void explain(const ExplainOptions& options, Outcome& outcome) {
 
 }  // namespace
 
-void add_explain(CLI::App& app, Outcome& outcome) {
+void add_explain(CLI::App& app, Outcome& outcome, StepChoice choose_step) {
   auto options = std::make_shared<ExplainOptions>();
-  auto* verb = app.add_subcommand(
-      "explain", "The plan of a scene before it runs: what will be there and why, its bytes, what is left out.");
+  auto* verb = app.get_subcommand("explain");
   verb->add_option("SCENE", options->scene, "a scene file (dartboard scene --keys), or the name of one of the gallery")
       ->required();
   verb->add_flag("--measure", options->measure, "run it for up to a second, three times, and print the time of a step");
   verb->add_flag("--json", options->json, "print JSON");
-  verb->callback([options, &outcome] { explain(*options, outcome); });
+  verb->callback(
+      [options, choose_step = std::move(choose_step), &outcome] { explain(*options, choose_step, outcome); });
 }
 
 }  // namespace dartboard
