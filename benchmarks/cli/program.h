@@ -8,7 +8,8 @@
 
 namespace dartboard {
 
-/// Parse a command line by the verbs that are added to the App, and run the verb it names. Errors go to standard error.
+/// Parse a command line, and run the verb that it names. The App has a subcommand for each row of `verb_names`, which
+/// `add_verbs` gives its options and what it does. Errors go to standard error.
 ///
 /// returns  the exit status
 int run_program(int argc, char** argv, const std::function<void(CLI::App&, Outcome&)>& add_verbs);
