@@ -8,8 +8,7 @@ namespace {
 template <std::size_t N>
 using Names = std::array<std::string_view, N>;
 
-constexpr Names<1> gmsh{".msh"}, vtk{".vtk"}, vtu{".vtu"}, vtp{".vtp"}, pvtu{".pvtu"}, stl{".stl"}, obj{".obj"},
-    ply{".ply"}, off{".off"};
+constexpr Names<1> gmsh{".msh"}, vtk{".vtk"}, vtu{".vtu"}, stl{".stl"}, obj{".obj"}, ply{".ply"}, off{".off"};
 constexpr Names<2> medit{".mesh", ".meshb"}, tetgen{".node", ".ele"};
 
 constexpr MeshFormatInfo table[] = {
@@ -24,15 +23,9 @@ constexpr MeshFormatInfo table[] = {
      "triangles, quadrilaterals and strips; whole numbers of cells",
      ""},
     {MeshFormat::vtu, "VTK XML", vtu,
-     "ASCII, base64 or raw, inline or appended, of either byte order; uncompressed or by zlib, LZ4 or LZMA; whole "
+     "ASCII, base64 or raw, inline or appended, of either byte order; uncompressed or by zlib or LZ4; whole "
      "numbers of cells; cells of higher order by their corners",
      "the frames of scenes: base64 inline, uncompressed"},
-    {MeshFormat::vtp, "VTK XML polygons", vtp,
-     "all encodings of .vtu; triangles, quadrilaterals and strips; whole numbers of cells", ""},
-    {MeshFormat::pvtu, "parallel VTK XML", pvtu,
-     "pieces in .vtu files; points of two pieces that are equal number for number are one, nearly equal ones are "
-     "refused; ghost cells are left out",
-     ""},
     {MeshFormat::stl, "STL", stl,
      "ASCII and binary; equal corners are one point; facets with two equal corners are left out; solids", ""},
     {MeshFormat::obj, "OBJ", obj,

@@ -44,22 +44,13 @@ std::optional<MeshFormat> vtk_format_of(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
   constexpr std::string_view legacy = "# vtk DataFile";
   if (same_letters(text.substr(0, legacy.size()), legacy)) return MeshFormat::vtk_legacy;
-  if (!text.starts_with("<")) return std::nullopt;
-  const std::size_t root = text.find("<VTKFile");
-  if (root == text.npos) return std::nullopt;
-  const std::string_view tag = text.substr(root, text.find('>', root) - root);
-  for (const auto& [type, format] : {std::pair{"\"PolyData\"", MeshFormat::vtp},
-                                     {"'PolyData'", MeshFormat::vtp},
-                                     {"\"PUnstructuredGrid\"", MeshFormat::pvtu},
-                                     {"'PUnstructuredGrid'", MeshFormat::pvtu}})
-    if (tag.find(type) != tag.npos) return format;
+  if (!text.starts_with("<") || text.find("<VTKFile") == text.npos) return std::nullopt;
   return MeshFormat::vtu;  // its reader reports any other type
 }
 
 /// The format of VTK that the text is in: some files have the extension of another.
 MeshFormat true_format(std::string_view text, MeshFormat format, MeshBuilder& builder) {
-  const bool is_vtk = format == MeshFormat::vtk_legacy || format == MeshFormat::vtu || format == MeshFormat::vtp ||
-                      format == MeshFormat::pvtu;
+  const bool is_vtk = format == MeshFormat::vtk_legacy || format == MeshFormat::vtu;
   const auto found = is_vtk ? vtk_format_of(text) : std::nullopt;
   if (!found || *found == format) return format;
   const auto info = [](MeshFormat wanted) -> const MeshFormatInfo& {
@@ -110,7 +101,6 @@ LoadedMesh read_mesh(const fs::path& path, const MeshReading& reading) {
 
 LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name, const MeshReading& reading) {
   MeshBuilder builder(name, name);
-  builder.set_weld(reading.weld.value_or(0.0));
   if (text.find_first_not_of(" \t\r\n\v\f") == text.npos) fail_at(name, 1, "the file is empty", "a mesh");
   std::string exact;
   switch (true_format(text, format, builder)) {
@@ -118,8 +108,6 @@ LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::strin
     case MeshFormat::gmsh: exact = read_gmsh(text, builder); break;
     case MeshFormat::vtk_legacy: exact = read_vtk_legacy(text, builder); break;
     case MeshFormat::vtu: exact = read_vtu(text, builder); break;
-    case MeshFormat::vtp: exact = read_vtp(text, builder); break;
-    case MeshFormat::pvtu: exact = read_pvtu(text, builder); break;
     case MeshFormat::stl: exact = read_stl(text, builder); break;
     case MeshFormat::obj: exact = read_obj(text, builder); break;
     case MeshFormat::ply: exact = read_ply(text, builder); break;

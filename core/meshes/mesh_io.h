@@ -10,7 +10,7 @@
 
 namespace dartboard {
 
-enum class MeshFormat { medit, tetgen, gmsh, vtk_legacy, vtu, vtp, pvtu, stl, obj, ply, off };
+enum class MeshFormat { medit, tetgen, gmsh, vtk_legacy, vtu, stl, obj, ply, off };
 
 /// A format as `dartboard mesh --formats` lists it, and as the reader finds it.
 struct MeshFormatInfo {
@@ -35,7 +35,7 @@ std::span<const MeshFormatInfo> mesh_formats();
 LoadedMesh read_mesh(const std::filesystem::path& path, const MeshReading& reading = {});
 
 /// The same for a text in memory; `name` stands for the file in errors. A TetGen text is the .node file followed by
-/// the .ele file; the pieces of a .pvtu are files, searched from the folder of `name`.
+/// the .ele file.
 LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name,
                       const MeshReading& reading = {});
 

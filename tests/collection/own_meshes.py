@@ -156,8 +156,7 @@ def write_volume_formats(folder):
         "box.vtk": "# vtk DataFile Version 3.0\nbox\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS %d double\n" % p +
                    rows(points) + "CELLS %d %d\n" % (c, 5 * c) + rows([4, *n] for n in nodes) + "CELL_TYPES %d\n" % c +
                    rows([[10] * c]),
-        "box.vtu": vtk_xml("UnstructuredGrid", "NumberOfPoints='%d' NumberOfCells='%d'" % (p, c), points,
-                           [("Cells", nodes, [10] * c)]),
+        "box.vtu": vtu(points, nodes, 10),
     }
     for name, text in texts.items():
         with open(os.path.join(folder, name), "w") as file:
@@ -165,16 +164,14 @@ def write_volume_formats(folder):
     write_medit(os.path.join(folder, "box.mesh"), points, cells)
 
 
-def vtk_xml(kind, counts, points, lists):
+def vtu(points, nodes, kind):
     array = lambda name, values, more="": "<DataArray type='%s' %s format='ascii'>%s</DataArray>" % (
         "Float64" if name == "Points" else "Int64", "Name='%s' %s" % (name, more), " ".join(map(str, values)))
-    text = "<VTKFile type='%s' version='1.0'><%s><Piece %s><Points>%s</Points>" % (
-        kind, kind, counts, array("Points", itertools.chain(*points), "NumberOfComponents='3'"))
-    for name, nodes, types in lists:
-        text += "<%s>%s%s%s</%s>" % (name, array("connectivity", itertools.chain(*nodes)),
-                                     array("offsets", itertools.accumulate(map(len, nodes))),
-                                     array("types", types) if types else "", name)
-    return text + "</Piece></%s></VTKFile>\n" % kind
+    return ("<VTKFile type='UnstructuredGrid' version='1.0'><UnstructuredGrid><Piece NumberOfPoints='%d' NumberOfCells='%d'>"
+            "<Points>%s</Points><Cells>%s%s%s</Cells></Piece></UnstructuredGrid></VTKFile>\n" % (
+                len(points), len(nodes), array("Points", itertools.chain(*points), "NumberOfComponents='3'"),
+                array("connectivity", itertools.chain(*nodes)), array("offsets", itertools.accumulate(map(len, nodes))),
+                array("types", [kind] * len(nodes))))
 
 
 def write_surface_formats(folder):
@@ -189,8 +186,6 @@ def write_surface_formats(folder):
                      "element face %d\nproperty list uchar int vertex_indices\nend_header\n" % (p, c) + rows(points) +
                      rows([3, *n] for n in nodes),
         "sheet.stl": "solid sheet\n" + "".join(map(facet, nodes)) + "endsolid sheet\n",
-        "sheet.vtp": vtk_xml("PolyData", "NumberOfPoints='%d' NumberOfPolys='%d'" % (p, c), points,
-                             [("Polys", nodes, None)]),
         "sheet.vtk": "# vtk DataFile Version 3.0\nsheet\nASCII\nDATASET POLYDATA\nPOINTS %d double\n" % p + rows(points) +
                      "POLYGONS %d %d\n" % (c, 4 * c) + rows([3, *n] for n in nodes),
     }
@@ -226,7 +221,6 @@ def write_all(folder):
     write_volume_formats(folder)
     write_surface_formats(folder)
     foreign = os.path.join(HERE, "..", "readback", "foreign")
-    for name in ("solid_4.meshb", "surface.off", "raw_lzma.vtp", "polygons_51_binary.vtk", "ghosts.pvtu", "ghosts_0.vtu",
-                 "ghosts_1.vtu"):
+    for name in ("solid_4.meshb", "surface.off", "raw_lz4.vtu", "polygons_51_binary.vtk", "ghosts_0.vtu"):
         shutil.copy(os.path.join(foreign, name), folder)
     return right

@@ -1,7 +1,6 @@
 #include "core/meshes/bytes/compressed_block.h"
 
 #include <lz4.h>
-#include <lzma.h>
 #include <zlib.h>
 
 #include <limits>
@@ -25,37 +24,21 @@ bool inflate_lz4(std::string_view block, char* to, std::size_t size) {
          static_cast<int>(size);
 }
 
-bool inflate_lzma(std::string_view block, char* to, std::size_t size) {
-  // the highest preset of xz has a dictionary of 64 MiB
-  std::uint64_t memory = std::uint64_t{80} << 20;
-  std::size_t used = 0, written = 0;
-  const lzma_ret status =
-      lzma_stream_buffer_decode(&memory, 0, nullptr, reinterpret_cast<const std::uint8_t*>(block.data()), &used,
-                                block.size(), reinterpret_cast<std::uint8_t*>(to), &written, size);
-  return status == LZMA_OK && used == block.size() && written == size;
-}
-
 }  // namespace
 
 std::optional<Compressor> compressor_of_vtk(std::string_view name) {
-  for (const Compressor one : {Compressor::zlib, Compressor::lz4, Compressor::lzma})
+  for (const Compressor one : {Compressor::zlib, Compressor::lz4})
     if (name == vtk_name(one)) return one;
   return std::nullopt;
 }
 
 std::string_view vtk_name(Compressor compressor) {
-  switch (compressor) {
-    case Compressor::zlib: return "vtkZLibDataCompressor";
-    case Compressor::lz4: return "vtkLZ4DataCompressor";
-    case Compressor::lzma: break;
-  }
-  return "vtkLZMADataCompressor";
+  return compressor == Compressor::zlib ? "vtkZLibDataCompressor" : "vtkLZ4DataCompressor";
 }
 
-// Deflate: 258 bytes for two bits. LZ4: 255 for a byte of a length. LZMA: a match of 273 bytes takes 14 decisions of at
-// least log2(2048/2017) = 0.022 bits each, so 7100 for a byte. Each with some more for its last match.
+// Deflate: 258 bytes for two bits. LZ4: 255 for a byte of a length. Each with some more for its last match.
 std::uint64_t largest_expansion(Compressor compressor, std::uint64_t compressed) {
-  const std::uint64_t each = compressor == Compressor::zlib ? 1032 : compressor == Compressor::lz4 ? 255 : 7100;
+  const std::uint64_t each = compressor == Compressor::zlib ? 1032 : 255;
   constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
   return compressed >= most / each - 1 ? most : (compressed + 1) * each;
 }
@@ -64,12 +47,7 @@ bool decompress(Compressor compressor, std::string_view block, std::size_t size,
   const std::size_t before = out.size();
   out.resize(before + size);
   char* const to = out.data() + before;
-  bool whole = false;
-  switch (compressor) {
-    case Compressor::zlib: whole = inflate_zlib(block, to, size); break;
-    case Compressor::lz4: whole = inflate_lz4(block, to, size); break;
-    case Compressor::lzma: whole = inflate_lzma(block, to, size); break;
-  }
+  const bool whole = compressor == Compressor::zlib ? inflate_zlib(block, to, size) : inflate_lz4(block, to, size);
   if (!whole) out.resize(before);
   return whole;
 }
@@ -94,7 +72,6 @@ std::size_t append_compressed(Compressor compressor, std::string_view block, std
           LZ4_compress_default(block.data(), out.data() + before, static_cast<int>(block.size()), most));
       break;
     }
-    case Compressor::lzma: break;
   }
   if (size == 0) throw std::bad_alloc();  // no other cause is left: there is room for the largest result
   out.resize(before + size);

@@ -8,7 +8,7 @@
 
 namespace dartboard {
 
-enum class Compressor { zlib, lz4, lzma };
+enum class Compressor { zlib, lz4 };
 
 /// The compressor with this name in VTK, such as vtkZLibDataCompressor.
 std::optional<Compressor> compressor_of_vtk(std::string_view name);
@@ -23,7 +23,8 @@ std::uint64_t largest_expansion(Compressor compressor, std::uint64_t compressed)
 bool decompress(Compressor compressor, std::string_view block, std::size_t size, std::string& out);
 
 /// Appends the compressed block, with the compressor at its fastest, and returns its length.
-/// pre  zlib or lz4; less than a GiB
+///
+/// pre  less than a GiB
 std::size_t append_compressed(Compressor compressor, std::string_view block, std::string& out);
 
 }  // namespace dartboard

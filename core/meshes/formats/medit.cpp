@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <span>
+#include <string>
 
 #include "core/meshes/formats/medit_sections.h"
-#include "core/meshes/formats/medit_skipped.h"
 #include "core/meshes/formats/mesh_formats.h"
 #include "core/meshes/text/letter_case.h"
 
@@ -36,6 +37,46 @@ void read_cells(TextScanner& scan, const MeditSection& section, MeshBuilder& bui
     const std::size_t line = scan.line();
     builder.tags().set(column, builder.cell_count(), scan.integer({reference, i}));
     builder.add_cell(section.kind, corners, line, section.element);
+  }
+}
+
+bool is_one_of(std::string_view keyword, std::span<const std::string_view> keywords) {
+  return std::ranges::any_of(keywords, [keyword](std::string_view one) { return same_letters(one, keyword); });
+}
+
+bool is_word(std::string_view token) {
+  const char first = lower(token).front();
+  return first >= 'a' && first <= 'z' && !same_letters(token, "nan") && !same_letters(token, "inf");
+}
+
+/// Whether a section of which nothing is known may be one of cells: TetrahedraP3, Polygons, or Tetrahedra misspelt, but
+/// not TetrahedraP2Ordering, TrianglesOnGeometricTriangles, TriangleReferenceElement, TetrahedraGrain, PrismsGID.
+bool may_hold_cells(std::string_view keyword) {
+  const std::string word = lower(keyword);
+  const auto begins = [&word](std::string_view part) { return word.starts_with(part); };
+  const auto has = [&word](std::string_view part) { return word.find(part) != word.npos; };
+  return has("polyg") || has("polyh") ||
+         (std::ranges::any_of(std::array{"tri", "quad", "tet", "pyr", "prism", "pent", "wedge", "hex"}, begins) &&
+          std::ranges::none_of(std::array{"ordering", "ongeomet", "reference", "grain", "colour", "gid"}, has));
+}
+
+/// Skip a section of which nothing is kept: numbers and texts in quotes, up to the next word. Texts without quotes,
+/// which may have any words, are known by the names of their sections: one text each, or as many as they count.
+void skip_section(TextScanner& scan, std::string_view keyword) {
+  constexpr std::array<std::string_view, 4> one{"Identifier", "Geometry", "MeshSupportOfVertices",
+                                                "IdentityOfMeshSupport"};
+  constexpr std::array<std::string_view, 3> counted{"Comments", "IRefGroups", "ReferenceStrings"};
+  if (is_one_of(keyword, one)) {
+    scan.quoted_or_line("a text");
+  } else if (is_one_of(keyword, counted)) {
+    for (std::uint64_t left = scan.count("the number of texts"); left > 0; --left) scan.quoted_or_line("a text");
+  } else {
+    while (!scan.at_end() && !is_word(scan.peek())) {
+      if (scan.peek().starts_with('"'))
+        scan.quoted_or_line("a text");
+      else
+        scan.token("a number");
+    }
   }
 }
 
@@ -75,7 +116,8 @@ std::string read_medit(std::string_view text, MeshBuilder& builder) {
       const std::uint64_t count = scan.count("the number of edges");
       for (std::uint64_t i = 0; i < 3 * count; ++i) scan.integer("a vertex or the reference of an edge");
       builder.skip(1, count);
-    } else if (skip_medit_section(scan, keyword, {dimension, builder.point_count()})) {
+    } else if (is_word(keyword) && !may_hold_cells(keyword)) {
+      skip_section(scan, keyword);
       builder.skip_section(keyword);
     } else {
       scan.fail(fmt::format("{} is not a section of a mesh", in_quotes(keyword)),

@@ -123,7 +123,7 @@ void read_section(Reader& r, std::int64_t code) {
   } else if (code == precision_code) {
     read_precision(r);
   } else if (code >= least_ignored && code <= largest_ignored && !is_other_cells(code)) {
-    r.builder.skip_section(skipped_medit_section(code));
+    r.builder.skip_section(fmt::format("of code {}", code));
     skip_rest(r);
   } else {
     r.numbers.fail(fmt::format("section {} is not one of a mesh that can be held", code),

@@ -1,7 +1,5 @@
 #include "core/meshes/formats/medit_sections.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "core/meshes/text/letter_case.h"
@@ -26,37 +24,6 @@ constexpr MeditSection sections[] = {
     {"HexahedraQ2", 33, CellKind::hexahedron, 27, "27-node hexahedron"},
 };
 
-/// Binary sections that hold no cells.
-struct NamedCode {
-  std::int64_t code;
-  std::string_view keyword;
-};
-constexpr NamedCode skipped[] = {
-    {13, "Corners"},
-    {14, "Ridges"},
-    {15, "RequiredVertices"},
-    {16, "RequiredEdges"},
-    {17, "RequiredTriangles"},
-    {18, "RequiredQuadrilaterals"},
-    {19, "TangentAtEdgeVertices"},
-    {20, "NormalAtVertices"},
-    {21, "NormalAtTriangleVertices"},
-    {22, "NormalAtQuadrilateralVertices"},
-    {23, "AngleOfCornerBound"},
-    {25, "EdgesP2"},
-    {50, "BoundingBox"},
-    {59, "Tangents"},
-    {60, "Normals"},
-    {61, "TangentAtVertices"},
-    {62, "SolAtVertices"},
-    {63, "SolAtEdges"},
-    {64, "SolAtTriangles"},
-    {65, "SolAtQuadrilaterals"},
-    {66, "SolAtTetrahedra"},
-    {67, "SolAtPrisms"},
-    {68, "SolAtHexahedra"},
-};
-
 const MeditSection* found(const MeditSection* at) { return at == std::end(sections) ? nullptr : at; }
 
 }  // namespace
@@ -67,11 +34,6 @@ const MeditSection* medit_section(std::string_view keyword) {
 
 const MeditSection* medit_section(std::int64_t code) {
   return found(std::ranges::find(sections, code, &MeditSection::code));
-}
-
-std::string skipped_medit_section(std::int64_t code) {
-  const auto* const known = std::ranges::find(skipped, code, &NamedCode::code);
-  return known == std::end(skipped) ? fmt::format("of code {}", code) : std::string(known->keyword);
 }
 
 }  // namespace dartboard

@@ -23,7 +23,4 @@ struct MeditSection {
 const MeditSection* medit_section(std::string_view keyword);
 const MeditSection* medit_section(std::int64_t code);
 
-/// The name of a binary section that holds no cells, or "of code 120" if its name is not known here.
-std::string skipped_medit_section(std::int64_t code);
-
 }  // namespace dartboard

@@ -88,39 +88,6 @@ std::size_t MeshBuilder::leave_out_further_groups(std::size_t tags) {
   return left_out_count_ - before;
 }
 
-double MeshBuilder::shortest_edge() const {
-  double shortest = std::numeric_limits<double>::infinity();
-  std::size_t first = 0;
-  for (std::size_t c = 0; c < kinds_.size(); ++c) {
-    const CellKind kind = kinds_[c];
-    const auto point = [&](int k) -> const Eigen::Vector3d& {
-      return points_[cell_points_[first + static_cast<std::size_t>(k)]];
-    };
-    for (const auto& face : faces_of(kind))
-      for (std::size_t k = 0; k < face.size() && !is_left_out(c); ++k)
-        shortest = std::min(shortest, (point(face[(k + 1) % face.size()]) - point(face[k])).norm());
-    first += static_cast<std::size_t>(node_count(kind));
-  }
-  return shortest;
-}
-
-void MeshBuilder::join_points(std::span<const std::uint32_t> same) {
-  std::vector<std::uint64_t> number(points_.size());
-  std::size_t kept = 0;
-  for (std::size_t p = 0; p < points_.size(); ++p) {
-    number[p] = same[p] == p ? kept : number[same[p]];
-    if (same[p] != p) continue;
-    points_[kept] = points_[p];
-    point_numbers_[kept] = kept;
-    ++kept;
-  }
-  points_.resize(kept);
-  point_numbers_.resize(kept);
-  point_lines_.assign(kept, 0);
-  for (std::uint64_t& p : cell_points_) p = number[p];
-  std::ranges::fill(all_cell_lines_, 0);
-}
-
 /// The points in ascending order of their numbers; empty when they are numbered one after the other already.
 std::vector<std::uint32_t> MeshBuilder::number_points() {
   const auto jump = std::adjacent_find(point_numbers_.begin(), point_numbers_.end(),
@@ -163,15 +130,13 @@ void MeshBuilder::notice_plane(std::uint64_t points) {
 }
 
 void MeshBuilder::skip_section(std::string_view name) {
-  const auto is_same = [name](const std::string& known) { return same_letters(known, name); };
-  if (std::ranges::none_of(skipped_sections_, is_same)) skipped_sections_.emplace_back(name);
+  if (known_sections_.insert(lower(name)).second) skipped_sections_.emplace_back(name);
 }
 
 void MeshBuilder::notice_sections() {
-  const bool is_one = skipped_sections_.size() == 1;
   if (skipped_sections_.empty()) return;
-  add_notice(fmt::format("skipped the section{} {}: no cells are in {}", is_one ? "" : "s",
-                         fmt::join(skipped_sections_, ", "), is_one ? "it" : "them"));
+  add_notice(fmt::format("skipped the section{} {}: only points and cells are read",
+                         skipped_sections_.size() == 1 ? "" : "s", fmt::join(skipped_sections_, ", ")));
 }
 
 std::string MeshBuilder::skipped_notice(int dimension, std::size_t kept) const {

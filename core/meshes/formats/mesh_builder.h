@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,30 +27,12 @@ class MeshBuilder {
   const std::string& point_file() const { return point_file_; }
   const std::string& cell_file() const { return cell_file_; }
 
-  /// From here on additions come from another file, which their errors name.
-  void read_from(const std::string& file) { point_file_ = cell_file_ = file; }
-
-  /// The distance at which points will be welded after reading; 0: they are not welded.
-  void set_weld(double distance) { weld_ = distance; }
-  double weld() const { return weld_; }
-
   void reserve_points(std::size_t count);
   std::uint64_t point_count() const { return points_.size(); }
   void add_point(std::uint64_t number, const Eigen::Vector3d& x, std::size_t line);
   /// Add a cell by its corners; `element` is its name when it has more nodes. A line of 0 means no line.
   void add_cell(CellKind kind, std::span<const std::uint64_t> corners, std::size_t line, std::string_view element = {});
   std::size_t cell_count() const { return kinds_.size(); }
-  std::span<const Eigen::Vector3d> points() const { return points_; }
-  /// The least distance of two points that an edge of a cell joins; infinite without cells. Cells that are left out do
-  /// not count.
-  ///
-  /// pre  points are numbered from 0, and every cell has only such
-  double shortest_edge() const;
-  /// Make points one: point p becomes point same[p], which itself stays and is not after p. Cells that come from
-  /// several files lose their lines.
-  ///
-  /// pre  as for shortest_edge
-  void join_points(std::span<const std::uint32_t> same);
   /// Take a cell that was added out of the mesh again.
   void leave_out(std::size_t cell);
   std::size_t left_out_count() const { return left_out_count_; }
@@ -63,7 +46,7 @@ class MeshBuilder {
   void add_notice(std::string notice) { notices_.push_back(std::move(notice)); }
   /// Report so many points of two coordinates, if any.
   void notice_plane(std::uint64_t points);
-  /// Skip a section that holds no cells; each name is reported once.
+  /// Report a section of which nothing is kept; each name once.
   void skip_section(std::string_view name);
   /// The tags of cells, by their places in the order in which they were added.
   CellTagsBuilder& tags() { return tags_; }
@@ -86,7 +69,6 @@ class MeshBuilder {
   bool is_left_out(std::size_t cell) const { return cell < left_out_.size() && left_out_[cell]; }
 
   std::string point_file_, cell_file_;
-  double weld_ = 0.0;
   std::vector<std::uint64_t> point_numbers_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::uint32_t> point_lines_;
@@ -99,6 +81,7 @@ class MeshBuilder {
   std::size_t left_out_count_ = 0;
   std::array<std::uint64_t, 2> skipped_{};  // points, edges
   std::vector<std::string> skipped_sections_;
+  std::set<std::string> known_sections_;  // the same in small letters
   std::vector<std::string> notices_;
   CellTagsBuilder tags_;
 };

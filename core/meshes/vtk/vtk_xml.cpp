@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 
 #include "core/meshes/text/text_scanner.h"
@@ -10,11 +9,13 @@
 namespace dartboard {
 namespace {
 
-VtuEncoding read_encoding(const XmlElement& tag, const std::string& file, std::string_view wanted) {
+constexpr std::string_view grid = "UnstructuredGrid";
+
+VtuEncoding read_encoding(const XmlElement& tag, const std::string& file) {
   const auto type = tag.attribute("type").value_or("");
-  if (tag.name != "VTKFile" || type != wanted)
+  if (tag.name != "VTKFile" || type != grid)
     fail_at(file, tag.line, fmt::format("found <{}> of type {}", in_quotes(tag.name), in_quotes(type)),
-            fmt::format("<VTKFile type=\"{}\">", wanted));
+            fmt::format("<VTKFile type=\"{}\">", grid));
   const auto header = tag.attribute("header_type").value_or("UInt32");
   if (header != "UInt32" && header != "UInt64")
     fail_at(file, tag.line, fmt::format("<VTKFile> has the header_type {}", in_quotes(header)), "UInt32 or UInt64");
@@ -38,13 +39,12 @@ VtuAppended read_appended(const VtkXml& file, const XmlElement& tag) {
   return {.data = tag.text.substr(begin + 1, end - begin - 1), .is_raw = encoding == "raw"};
 }
 
-void take_array(VtkPiece& piece, const XmlElement& tag, std::string_view parent,
-                std::span<const std::string_view> lists, const std::string& file) {
+void take_array(VtkPiece& piece, const XmlElement& tag, std::string_view parent, const std::string& file) {
   const auto key = tag.attribute("Name").value_or("");
   if (parent == "CellData" && !key.empty() && tag.attribute("NumberOfComponents").value_or("1") == "1")
     if (const auto type = scalar_of_vtu(tag.attribute("type").value_or("")); type && !is_real(*type))
       piece.tags.push_back({.tag = &tag, .name = std::string(key)});
-  if (parent != "Points" && std::ranges::find(lists, parent) == lists.end()) return;
+  if (parent != "Points" && parent != "Cells") return;
   const std::string name(parent == "Points" ? "Points" : key);
   const bool is_new = piece.arrays.try_emplace({parent, name}, VtuArray{.tag = &tag, .name = name}).second;
   if (!is_new) fail_at(file, tag.line, fmt::format("found <DataArray> {} again", in_quotes(name)), "it once");
@@ -58,9 +58,9 @@ void check_size(const VtuArray& array, std::size_t found, std::uint64_t expected
 
 }  // namespace
 
-VtkXml read_vtk_xml(std::string_view text, const std::string& name, std::string_view type) {
+VtkXml read_vtk_xml(std::string_view text, const std::string& name) {
   VtkXml file{.name = name, .elements = read_xml(text, name, "AppendedData")};
-  file.encoding = read_encoding(file.elements.front(), name, type);
+  file.encoding = read_encoding(file.elements.front(), name);
   if (const XmlElement& last = file.elements.back(); last.name == "AppendedData")
     file.encoding.appended = read_appended(file, last);
   return file;
@@ -71,8 +71,7 @@ std::vector<std::size_t> VtkXml::pieces() const {
   for (std::size_t e = 0; e < elements.size(); ++e)
     if (elements[e].name == "Piece") found.push_back(e);
   if (found.empty())
-    fail_at(name, elements.back().line, "the file has no <Piece>",
-            fmt::format("<{}> with a <Piece>", elements.front().attribute("type").value_or("")));
+    fail_at(name, elements.back().line, "the file has no <Piece>", fmt::format("<{}> with a <Piece>", grid));
   return found;
 }
 
@@ -90,10 +89,10 @@ const VtuArray& VtkPiece::array(std::string_view list, const std::string& key, c
   return at->second;
 }
 
-VtkPiece find_vtk_piece(const VtkXml& file, std::size_t number, std::span<const std::string_view> lists) {
+VtkPiece find_vtk_piece(const VtkXml& file, std::size_t number) {
   const XmlElement& tag = file.elements[number];
   VtkPiece piece{.line = tag.line, .points = file.count_attribute(tag, "NumberOfPoints")};
-  std::size_t list = 0;  // <Points>, <Cells> or the like, read last
+  std::size_t list = 0;  // <Points>, <Cells> or <CellData>, read last
   for (std::size_t e = number + 1; e < file.elements.size(); ++e) {
     const XmlElement& element = file.elements[e];
     if (element.name == "Piece" && element.parent >= number && element.parent != XmlElement::no_parent)
@@ -103,7 +102,7 @@ VtkPiece find_vtk_piece(const VtkXml& file, std::size_t number, std::span<const 
     else if (element.parent == XmlElement::no_parent || element.parent < number)
       break;
     else if (element.name == "DataArray" && element.parent == list)
-      take_array(piece, element, file.elements[list].name, lists, file.name);
+      take_array(piece, element, file.elements[list].name, file.name);
   }
   return piece;
 }
@@ -130,9 +129,9 @@ std::vector<std::int64_t> read_vtk_integers(const VtkXml& file, const VtuArray& 
   return values;
 }
 
-VtkXmlCells read_vtk_cells(const VtkXml& file, const VtkPiece& piece, std::string_view list, std::uint64_t count) {
-  const VtuArray& points = piece.array(list, "connectivity", file);
-  const VtuArray& ends = piece.array(list, "offsets", file);
+VtkXmlCells read_vtk_cells(const VtkXml& file, const VtkPiece& piece, std::uint64_t count) {
+  const VtuArray& points = piece.array("Cells", "connectivity", file);
+  const VtuArray& ends = piece.array("Cells", "offsets", file);
   VtkXmlCells cells{.line = points.tag->line,
                     .connectivity = integer_values(points, file.encoding, file.name),
                     .offsets = read_vtk_integers(file, ends, count)};

@@ -1,5 +1,5 @@
 #pragma once
-// The common parts of XML VTK files of grids and of polygons: a root, pieces, points, lists of cells, data of cells.
+// The parts of an XML VTK file of a grid: a root, pieces, points, cells, data of cells.
 
 #include <cstdint>
 #include <map>
@@ -28,8 +28,8 @@ struct VtkXml {
   std::uint64_t count_attribute(const XmlElement& tag, std::string_view key) const;
 };
 
-/// The elements of a file whose root is <VTKFile type="...">; both `text` and `name` must outlive them.
-VtkXml read_vtk_xml(std::string_view text, const std::string& name, std::string_view type);
+/// The elements of a file whose root is <VTKFile type="UnstructuredGrid">; both `text` and `name` must outlive them.
+VtkXml read_vtk_xml(std::string_view text, const std::string& name);
 
 /// The arrays of one <Piece>.
 struct VtkPiece {
@@ -42,14 +42,13 @@ struct VtkPiece {
   const VtuArray& array(std::string_view list, const std::string& key, const VtkXml& file) const;
 };
 
-/// Find <Points>, the lists of these names, and the whole numbers of cells; other arrays, results for instance, may be
-/// in any format.
-VtkPiece find_vtk_piece(const VtkXml& file, std::size_t number, std::span<const std::string_view> lists);
+/// Find <Points>, <Cells>, and the whole numbers of cells; other arrays, results for instance, may be in any format.
+VtkPiece find_vtk_piece(const VtkXml& file, std::size_t number);
 
 /// Add the points of a piece, numbered after the present ones; returns the number of the first.
 std::uint64_t add_vtk_points(const VtkXml& file, const VtkPiece& piece, MeshBuilder& builder);
 
-/// The cells of a list: the points of all cells, and the end of each.
+/// The cells of a piece: the points of all cells, and the end of each.
 struct VtkXmlCells {
   std::size_t line = 0;
   std::vector<std::int64_t> connectivity, offsets;
@@ -62,7 +61,7 @@ struct VtkXmlCells {
 };
 
 /// throws  IoError unless there are `count` offsets, which grow from 0 to the number of points
-VtkXmlCells read_vtk_cells(const VtkXml& file, const VtkPiece& piece, std::string_view list, std::uint64_t count);
+VtkXmlCells read_vtk_cells(const VtkXml& file, const VtkPiece& piece, std::uint64_t count);
 
 /// Integers, one for each of `count` cells.
 std::vector<std::int64_t> read_vtk_integers(const VtkXml& file, const VtuArray& array, std::uint64_t count);

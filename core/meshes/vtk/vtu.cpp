@@ -1,5 +1,3 @@
-#include <array>
-
 #include "core/meshes/vtk/vtk_cells.h"
 #include "core/meshes/vtk/vtk_formats.h"
 #include "core/meshes/vtk/vtk_xml.h"
@@ -7,11 +5,9 @@
 namespace dartboard {
 namespace {
 
-constexpr std::array<std::string_view, 1> lists{"Cells"};
-
 void add_cells(const VtkXml& file, const VtkPiece& piece, std::uint64_t count, std::uint64_t first_point,
                MeshBuilder& builder) {
-  const VtkXmlCells cells = read_vtk_cells(file, piece, "Cells", count);
+  const VtkXmlCells cells = read_vtk_cells(file, piece, count);
   const auto types = read_vtk_integers(file, piece.array("Cells", "types", file), count);
   VtkCellPlaces places;
   for (std::size_t c = 0; c < types.size(); ++c) {
@@ -25,19 +21,14 @@ void add_cells(const VtkXml& file, const VtkPiece& piece, std::uint64_t count, s
 
 }  // namespace
 
-void add_vtu(std::string_view text, MeshBuilder& builder) {
-  const std::string name = builder.cell_file();
-  const VtkXml file = read_vtk_xml(text, name, "UnstructuredGrid");
+std::string read_vtu(std::string_view text, MeshBuilder& builder) {
+  const VtkXml file = read_vtk_xml(text, builder.cell_file());
   for (const std::size_t number : file.pieces()) {
-    const VtkPiece piece = find_vtk_piece(file, number, lists);
+    const VtkPiece piece = find_vtk_piece(file, number);
     const std::uint64_t count = file.count_attribute(file.elements[number], "NumberOfCells");
     const std::uint64_t first_point = add_vtk_points(file, piece, builder);
     if (count != 0) add_cells(file, piece, count, first_point, builder);
   }
-}
-
-std::string read_vtu(std::string_view text, MeshBuilder& builder) {
-  add_vtu(text, builder);
   note_ghost_cells(builder);
   return "VTU";
 }

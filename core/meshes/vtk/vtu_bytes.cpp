@@ -82,7 +82,7 @@ std::string read_blocks(Stored& stored, const VtuEncoding& encoding) {
   const auto compressor = compressor_of_vtk(encoding.compressor);
   if (!compressor)
     stored.fail(fmt::format("compressed with {}", in_quotes(encoding.compressor)),
-                "vtkZLibDataCompressor, vtkLZ4DataCompressor or vtkLZMADataCompressor");
+                "vtkZLibDataCompressor or vtkLZ4DataCompressor");
   const std::uint64_t count = stored.length();
   if (count == 0) return {};
   const std::uint64_t size = stored.length(), last = stored.length();

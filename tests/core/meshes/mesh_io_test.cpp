@@ -78,7 +78,9 @@ TEST_F(MeshIo, ListsTheKnownExtensionsWhenOneIsUnknown) {
   expect_part(
       refused(write("a.step", medit)),
       "a.step: the extension '.step' is unknown; expected .mesh or .meshb (Medit), .node or .ele (TetGen), .msh (Gmsh), "
-      ".vtk (legacy VTK), .vtu (VTK XML), .vtp (VTK XML polygons), .pvtu (parallel VTK XML), .stl (STL), .obj (OBJ), .ply (PLY) or .off (OFF)");
+      ".vtk (legacy VTK), .vtu (VTK XML), .stl (STL), .obj (OBJ), .ply (PLY) or .off (OFF)");
+  for (const char* name : {"a.vtp", "a.pvtu"})
+    expect_part(refused(write(name, vtu_ascii)), "' is unknown; expected .mesh");
 }
 
 // The page for readers and the program's list are the same.

@@ -3,7 +3,6 @@
 // triangles in the formats of surfaces. Cells have the numbers 7 and -3 where the format has a place for them.
 
 #include <lz4.h>
-#include <lzma.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -35,26 +34,21 @@ std::string bytes_of(const std::vector<T>& values, bool big_endian = false) {
 
 struct VtuVariant {
   std::string encoding = "inline";  // or raw, base64: appended
-  std::string compressor = {};      // ZLib, LZ4, LZMA
+  std::string compressor = {};      // ZLib, LZ4
   bool wide = false, big_endian = false;
   std::size_t block = 50;  // bytes that are compressed together
 };
 
 inline std::string compressed(const std::string& bytes, const std::string& compressor) {
   std::string out(bytes.size() + 1000, '\0');
-  const auto* from = reinterpret_cast<const unsigned char*>(bytes.data());
-  auto* to = reinterpret_cast<unsigned char*>(out.data());
   if (compressor == "ZLib") {
     uLongf size = out.size();
-    compress2(to, &size, from, bytes.size(), 6);
+    compress2(reinterpret_cast<unsigned char*>(out.data()), &size, reinterpret_cast<const unsigned char*>(bytes.data()),
+              bytes.size(), 6);
     out.resize(size);
-  } else if (compressor == "LZ4") {
+  } else {
     out.resize(static_cast<std::size_t>(
         LZ4_compress_default(bytes.data(), out.data(), static_cast<int>(bytes.size()), static_cast<int>(out.size()))));
-  } else {
-    std::size_t size = 0;
-    lzma_easy_buffer_encode(5, LZMA_CHECK_CRC32, nullptr, from, bytes.size(), to, &size, out.size());
-    out.resize(size);
   }
   return out;
 }
@@ -82,9 +76,7 @@ inline std::string stored(const std::string& bytes, const VtuVariant& v) {
   return is_raw ? lengths(head, v) + blocks : encode_base64(lengths(head, v)) + encode_base64(blocks);
 }
 
-/// An XML VTK file of one piece: `write` writes its content, with an array for each call of its argument.
-template <class Write>
-std::string vtk_xml(const VtuVariant& v, const std::string& type, const std::string& counts, const Write& write) {
+inline std::string vtu(const VtuVariant& v) {
   std::string appended;
   const auto array = [&](const std::string& attributes, const std::string& bytes) {
     const std::string data = stored(bytes, v), tag = "<DataArray " + attributes;
@@ -94,35 +86,28 @@ std::string vtk_xml(const VtuVariant& v, const std::string& type, const std::str
     return tag + " format=\"appended\" offset=\"" + offset + "\"/>\n";
   };
   const std::string compressor = v.compressor.empty() ? "" : " compressor=\"vtk" + v.compressor + "DataCompressor\"";
-  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type + "\" version=\"1.0\"" + " byte_order=\"" +
-                     (v.big_endian ? "BigEndian" : "LittleEndian") + "\" header_type=\"" +
-                     (v.wide ? "UInt64" : "UInt32") + "\"" + compressor + ">\n<" + type + ">\n<Piece " + counts +
-                     ">\n" + write(array) + "</Piece>\n</" + type + ">\n";
+  std::string text = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"") +
+                     " byte_order=\"" + (v.big_endian ? "BigEndian" : "LittleEndian") + "\" header_type=\"" +
+                     (v.wide ? "UInt64" : "UInt32") + "\"" + compressor +
+                     ">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"5\" NumberOfCells=\"2\">\n<CellData>\n";
+  text += array("type=\"Int32\" Name=\"material\"", bytes_of<std::int32_t>({7, -3}, v.big_endian));
+  text += array("type=\"Float32\" Name=\"result\"", bytes_of<float>({0.5f, 1.5f}, v.big_endian));
+  text += "</CellData>\n<Points>\n";
+  text += array("type=\"Float64\" NumberOfComponents=\"3\" Name=\"Points\"", bytes_of(coordinates, v.big_endian));
+  text += "</Points>\n<Cells>\n";
+  text += array("type=\"Int64\" Name=\"connectivity\"", bytes_of<std::int64_t>({0, 1, 2, 3, 1, 2, 3, 4}, v.big_endian));
+  text += array("type=\"Int64\" Name=\"offsets\"", bytes_of<std::int64_t>({4, 8}, v.big_endian));
+  text += array("type=\"UInt8\" Name=\"types\"", "\x0a\x0a");
+  text += "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
   if (v.encoding != "inline")
     text += "<AppendedData encoding=\"" + v.encoding + "\">\n_" + appended + "\n</AppendedData>\n";
   return text + "</VTKFile>\n";
 }
 
-inline std::string vtu(const VtuVariant& v) {
-  return vtk_xml(v, "UnstructuredGrid", "NumberOfPoints=\"5\" NumberOfCells=\"2\"", [&v](const auto& array) {
-    std::string text = "<CellData>\n";
-    text += array("type=\"Int32\" Name=\"material\"", bytes_of<std::int32_t>({7, -3}, v.big_endian));
-    text += array("type=\"Float32\" Name=\"result\"", bytes_of<float>({0.5f, 1.5f}, v.big_endian));
-    text += "</CellData>\n<Points>\n";
-    text += array("type=\"Float64\" NumberOfComponents=\"3\" Name=\"Points\"", bytes_of(coordinates, v.big_endian));
-    text += "</Points>\n<Cells>\n";
-    text +=
-        array("type=\"Int64\" Name=\"connectivity\"", bytes_of<std::int64_t>({0, 1, 2, 3, 1, 2, 3, 4}, v.big_endian));
-    text += array("type=\"Int64\" Name=\"offsets\"", bytes_of<std::int64_t>({4, 8}, v.big_endian));
-    text += array("type=\"UInt8\" Name=\"types\"", "\x0a\x0a");
-    return text + "</Cells>\n";
-  });
-}
-
 inline std::vector<VtuVariant> vtu_variants() {
   std::vector<VtuVariant> variants;
   for (const char* encoding : {"inline", "raw", "base64"})
-    for (const char* compressor : {"", "ZLib", "LZ4", "LZMA"})
+    for (const char* compressor : {"", "ZLib", "LZ4"})
       for (const bool wide : {false, true})
         for (const bool big_endian : {false, true})
           variants.push_back({.encoding = encoding, .compressor = compressor, .wide = wide, .big_endian = big_endian});

@@ -31,7 +31,7 @@ TEST(MeditBinary, ReadsToTheSameBitsInEveryVersionAndByteOrder) {
       expect_two_tetrahedra(loaded);
       EXPECT_EQ(loaded.format, "Medit " + std::to_string(version) + " binary");
       EXPECT_EQ(loaded.notices,
-                (std::vector<std::string>{"skipped the section Corners: no cells are in it",
+                (std::vector<std::string>{"skipped the section of code 13: only points and cells are read",
                                           "skipped 1 triangle, 1 edge: the body is made of its 2 volumes"}));
       ASSERT_EQ(loaded.tags.size(), 1u);
       EXPECT_EQ(loaded.tags[0].values, (std::vector<std::int32_t>{7, -3}));
@@ -74,15 +74,15 @@ TEST(MeditBinary, TakesCellsOfSecondOrderByTheirCorners) {
             (std::vector<std::string>{"took 1 10-node tetrahedron by their corners: edges of a body are straight"}));
 }
 
-TEST(MeditBinary, NamesTheSectionsThatWereSkipped) {
+TEST(MeditBinary, NamesTheCodesOfSectionsThatWereSkipped) {
   MeshbWriter file(2, false);
   file.section(4, file.integers({3}) + file.reals({0, 0, 0}) + file.integers({0}) + file.reals({1, 0, 0}) +
                       file.integers({0}) + file.reals({0, 1, 0}) + file.integers({0}));
   for (const std::int32_t code : {14, 120, 62, 14}) file.lines(code, 1, {1, 1, 1, 1});
   file.lines(6, 1, {1, 2, 3, 0});
-  EXPECT_EQ(
-      parse(file.finish()).notices,
-      (std::vector<std::string>{"skipped the sections Ridges, of code 120, SolAtVertices: no cells are in them"}));
+  EXPECT_EQ(parse(file.finish()).notices,
+            (std::vector<std::string>{
+                "skipped the sections of code 14, of code 120, of code 62: only points and cells are read"}));
 }
 
 TEST(MeditBinary, RefusesASectionThatMayHoldCellsInsteadOfLosingThem) {

@@ -27,7 +27,7 @@ TEST(Medit, ReadsASurfaceInThePlaneWithZeroHeight) {
   EXPECT_EQ(loaded.mesh.dimension(), 2);
   EXPECT_EQ(loaded.mesh.kinds, (std::vector{CellKind::triangle, CellKind::quadrilateral}));
   EXPECT_EQ(loaded.mesh.points[2], Eigen::Vector3d(1, 1, 0));
-  EXPECT_EQ(loaded.notices, (std::vector<std::string>{"skipped the section Corners: no cells are in it",
+  EXPECT_EQ(loaded.notices, (std::vector<std::string>{"skipped the section Corners: only points and cells are read",
                                                       "skipped 1 edge: the body is made of its 2 polygons"}));
 }
 

@@ -105,6 +105,19 @@ TEST(WeldedPoints, JoinAllSidesOfScatteredCells) {
   EXPECT_EQ(loaded.mesh.points.size(), box.points.size());
 }
 
+// Wherever they lie: the search for near points uses boxes 64 times as wide as the distance, 2.6e-3. Steps of 2e-5 over
+// one of them, of points 3e-5 apart, visit every border.
+TEST(WeldedPoints, AreFoundWhereverTheyAre) {
+  for (int k = 0; k < 140; ++k) {
+    const double x = 10.0 + 2e-5 * k;
+    EXPECT_EQ(read(fmt::format("v {} 5 5\nv 11 0 0\nv 0 11 0\nv {} 5 5\nv 0 0 11\nv -13 -13 0\nf 1 2 3\nf 4 5 6\n", x,
+                               x + 3e-5),
+                   4e-5)
+                  .mesh.points.size(),
+              5u);
+  }
+}
+
 TEST(OpenSeams, AreReportedWithADistanceThatClosesThem) {
   for (const auto& [gap, found, weld] :
        {std::tuple{"0",
@@ -122,7 +135,11 @@ TEST(OpenSeams, AreReportedWithADistanceThatClosesThem) {
 }
 
 TEST(OpenSeams, AreNoneWherePointsAreFarForTheirEdges) {
-  EXPECT_EQ(read(two_triangles("1e-5")).notices.size(), 1u);
+  // a millionth of the size of the points, sqrt(2); a thousandth of the shortest edge
+  for (const auto& [near, far, height] : {std::tuple{"1.4e-6", "1.5e-6", "1"}, {"0.9e-7", "1.1e-7", "1e-4"}}) {
+    EXPECT_EQ(read(two_triangles(near, height)).notices.size(), 2u);
+    EXPECT_EQ(read(two_triangles(far, height)).notices.size(), 1u);
+  }
   EXPECT_EQ(read("v 0 0 0\nv 1e-7 0 0\nv 0 1 0\nf 1 2 3\n").notices.size(), 0u);
 }
 

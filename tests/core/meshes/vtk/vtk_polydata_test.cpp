@@ -28,6 +28,20 @@ TEST(VtkPolyData, ReadsToTheSameBitsAsTextAndAsBytesOfBothLayouts) {
   EXPECT_EQ(parse(vtk_polygons_binary(true)).format, "legacy VTK 5.1 polygons binary");
 }
 
+TEST(VtkPolyData, TurnsEveryOtherTriangleOfAStripAndGivesAllItsNumber) {
+  std::string text = with(vtk_polygons, "TRIANGLE_STRIPS 1 4\n3 0 2 3", "TRIANGLE_STRIPS 1 5\n4 1 0 2 3");
+  text = with(with(text, "POLYGONS 1 4\n3 0 1 2\n", ""), "CELL_DATA 4", "CELL_DATA 3");
+  const LoadedMesh loaded = parse(with(text, "1 2 7 -3", "1 2 7"));
+  EXPECT_EQ(loaded.mesh.nodes, (std::vector<std::uint32_t>{1, 0, 2, 2, 0, 3}));
+  EXPECT_EQ(loaded.tags.at(0).values, (std::vector<std::int32_t>{7, 7}));
+}
+
+TEST(VtkPolyData, HasQuadrilateralsAmongItsPolygons) {
+  const std::string text = with(with(vtk_polygons, "TRIANGLE_STRIPS 1 4\n3 0 2 3\n", ""), "POLYGONS 1 4\n3 0 1 2",
+                                "POLYGONS 1 5\n4 0 1 2 3");
+  EXPECT_EQ(parse(text.substr(0, text.find("CELL_DATA"))).mesh.kinds, std::vector{CellKind::quadrilateral});
+}
+
 TEST(VtkPolyData, MayEndWithItsLists) {
   const std::string text(vtk_polygons.substr(0, vtk_polygons.find("CELL_DATA")));
   EXPECT_EQ(parse(text).mesh.cell_count(), 2u);
@@ -44,6 +58,10 @@ TEST(VtkPolyData, RefusesCellsThatItCannotHold) {
   expect_part(refused(with(vtk_polygons, "3 0 1 2\n", "3 0 1 4\n")), "cell 2 has the point 4");
   expect_part(refused(with(vtk_polygons, "POLYGONS 1 4\n3 0 1 2", "POLYGONS 1 3\n2 0 1")),
               "cell 2 is a polygon of 2 corners; expected triangles and quadrilaterals");
+  expect_part(refused(with(vtk_polygons, "POLYGONS 1 4\n3 0 1 2", "POLYGONS 1 6\n5 0 1 2 3 0")),
+              "cell 2 is a polygon of 5 corners; expected triangles and quadrilaterals: split larger");
+  expect_part(refused(with(vtk_polygons, "TRIANGLE_STRIPS 1 4\n3 0 2 3", "TRIANGLE_STRIPS 1 3\n2 0 2")),
+              "cell 3 is a triangle strip with 2 points; expected 3 points or more");
   expect_part(refused(with(vtk_polygons, "3 0 2 3\n", "3 0 2 2\n")), "has the point 2 twice");
 }
 

@@ -33,9 +33,15 @@ TEST(Vtu, PutsPiecesOneAfterTheOther) {
   expect_part(loaded.notices[0], "4 points coincide with another one");
 }
 
+TEST(Vtu, RefusesAFileWithoutPieces) {
+  expect_part(refused("<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid/></VTKFile>"),
+              "the file has no <Piece>; expected <UnstructuredGrid> with a <Piece>");
+}
+
 TEST(Vtu, RefusesAnotherKindOfFile) {
-  expect_part(refused(with(vtu_ascii, "\"UnstructuredGrid\"", "\"ImageData\"")),
-              "file:3: found <'VTKFile'> of type 'ImageData'");
+  for (const std::string type : {"ImageData", "PolyData", "PUnstructuredGrid"})
+    expect_part(refused(with(vtu_ascii, "\"UnstructuredGrid\"", "\"" + type + "\"")),
+                "file:3: found <'VTKFile'> of type '" + type + "'; expected <VTKFile type=\"UnstructuredGrid\">");
   expect_part(refused("not xml at all"), "file:1: this is not XML: syntax error");
 }
 

@@ -46,7 +46,7 @@ TEST(VtuClaims, OfMoreBytesThanTheFileHasAreRefused) {
               "'Points': its header says 1152921504606846976 bytes, of at most");
   const VtuVariant packed{.encoding = "raw", .compressor = "ZLib", .wide = true};
   expect_part(refused(with_head(packed, {huge, 50, 20}, 120)), "'Points': its header says");
-  for (const char* compressor : {"ZLib", "LZ4", "LZMA"}) {
+  for (const char* compressor : {"ZLib", "LZ4"}) {
     const VtuVariant v{.encoding = "raw", .compressor = compressor, .wide = true};
     expect_part(refused(with_head(v, {3, huge, 20}, 120)), "expected as many as its compressor needs at least");
   }
@@ -59,7 +59,7 @@ TEST(VtuClaims, OfFewerBytesThanAnArrayHasAreRefused) {
 }
 
 TEST(VtuClaims, OfAnotherSizeThanABlockHasAreRefused) {
-  for (const char* compressor : {"ZLib", "LZ4", "LZMA"}) {
+  for (const char* compressor : {"ZLib", "LZ4"}) {
     const VtuVariant v{.encoding = "raw", .compressor = compressor};
     expect_part(refused(with_head(v, {3, 51, 20}, 120)), "block 0 does not decompress to 51 bytes");
     expect_part(refused(with_head(v, {3, 49, 20}, 120)), "block 0 does not decompress to 49 bytes");
@@ -78,9 +78,11 @@ TEST(VtuAppended, IsRefusedWhereItIsNotThere) {
               "file:18: <DataArray> 'offsets': appended data; expected <AppendedData> in the file");
 }
 
-TEST(VtuCompressor, IsOneOfVtks) {
-  expect_part(refused(with(vtu({.compressor = "ZLib"}), "vtkZLib", "vtkOther")),
-              "compressed with 'vtkOtherDataCompressor'; expected vtkZLibDataCompressor, ");
+TEST(VtuCompressor, IsOneOfTwo) {
+  for (const std::string other : {"vtkLZMA", "vtkOther"})
+    expect_part(
+        refused(with(vtu({.compressor = "ZLib"}), "vtkZLib", other)),
+        "compressed with '" + other + "DataCompressor'; expected vtkZLibDataCompressor or vtkLZ4DataCompressor");
 }
 
 TEST(VtuTagsOfCells, AreAsManyAsThereAreCells) {
