@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "benchmarks/harness/clock.h"
+#include "benchmarks/harness/json_fields.h"
 #include "benchmarks/harness/processes.h"
 #include "benchmarks/harness/scratch_folder.h"
 #include "benchmarks/harness/statistics.h"
@@ -238,42 +239,9 @@ void measure_large_start(const LargePlan& plan, const std::function<void(const L
   times.take(info, seconds, static_cast<double>(fs::file_size(file)), seconds_to_read(file));
 }
 
-void to_json(nlohmann::json& json, const LargeTime& t) {
-  json = {{"side", t.side},       {"process", t.process}, {"part", t.part},
-          {"seconds", t.seconds}, {"bytes", t.bytes},     {"limit_seconds", t.limit_seconds}};
-}
-void from_json(const nlohmann::json& json, LargeTime& t) {
-  json.at("side").get_to(t.side);
-  json.at("process").get_to(t.process);
-  json.at("part").get_to(t.part);
-  json.at("seconds").get_to(t.seconds);
-  json.at("bytes").get_to(t.bytes);
-  json.at("limit_seconds").get_to(t.limit_seconds);
-}
+DARTBOARD_JSON_FIELDS(LargeTime, side, process, part, seconds, bytes, limit_seconds)
 
-void to_json(nlohmann::json& json, const LargeCounts& c) {
-  json = {{"side", c.side},
-          {"vertices", c.vertices},
-          {"springs", c.springs},
-          {"operations", c.operations},
-          {"components", c.components},
-          {"keeps_mass", c.keeps_mass},
-          {"violation", c.violation},
-          {"bytes", c.bytes},
-          {"bytes_without_events", c.bytes_without_events},
-          {"peak_bytes", c.peak_bytes}};
-}
-void from_json(const nlohmann::json& json, LargeCounts& c) {
-  json.at("side").get_to(c.side);
-  json.at("vertices").get_to(c.vertices);
-  json.at("springs").get_to(c.springs);
-  json.at("operations").get_to(c.operations);
-  json.at("components").get_to(c.components);
-  json.at("keeps_mass").get_to(c.keeps_mass);
-  json.at("violation").get_to(c.violation);
-  json.at("bytes").get_to(c.bytes);
-  json.at("bytes_without_events").get_to(c.bytes_without_events);
-  json.at("peak_bytes").get_to(c.peak_bytes);
-}
+DARTBOARD_JSON_FIELDS(LargeCounts, side, vertices, springs, operations, components, keeps_mass, violation, bytes,
+                      bytes_without_events, peak_bytes)
 
 }  // namespace dartboard

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/harness/json_fields.h"
 #include "benchmarks/harness/json_text.h"
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
@@ -14,18 +15,7 @@ namespace dartboard {
 
 std::string TimedBar::name() const { return fmt::format("{}, {} finer, {}", model, finer, poisson); }
 
-void to_json(nlohmann::json& json, const TimedBar& bar) {
-  json = {{"model", bar.model},           {"finer", bar.finer}, {"poisson", bar.poisson},
-          {"integrator", bar.integrator}, {"h", bar.h},         {"steps", bar.steps}};
-}
-void from_json(const nlohmann::json& json, TimedBar& bar) {
-  json.at("model").get_to(bar.model);
-  json.at("finer").get_to(bar.finer);
-  json.at("poisson").get_to(bar.poisson);
-  json.at("integrator").get_to(bar.integrator);
-  json.at("h").get_to(bar.h);
-  json.at("steps").get_to(bar.steps);
-}
+DARTBOARD_JSON_FIELDS(TimedBar, model, finer, poisson, integrator, h, steps)
 
 std::string to_argument(const ModelTimesPlan& plan) {
   const nlohmann::json json{{"cubes", plan.bar.cubes}, {"spacing", plan.bar.spacing},

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "benchmarks/harness/clock.h"
+#include "benchmarks/harness/json_fields.h"
 #include "benchmarks/paper/paper_bodies.h"
 #include "benchmarks/studies/topology/topology_tasks.h"
 #include "core/mechanics/adapt.h"
@@ -306,29 +307,7 @@ SeriesTime time_series_of_removals(const Problem& problem, int count, std::uint6
   return time;
 }
 
-void to_json(nlohmann::json& json, const OperationSample& s) {
-  json = {{"body", s.body}, {"operation", s.operation}, {"process", s.process}, {"ns", s.ns}, {"cpu_ns", s.cpu_ns}};
-}
-void from_json(const nlohmann::json& json, OperationSample& s) {
-  json.at("body").get_to(s.body);
-  json.at("operation").get_to(s.operation);
-  json.at("process").get_to(s.process);
-  json.at("ns").get_to(s.ns);
-  json.at("cpu_ns").get_to(s.cpu_ns);
-}
-void to_json(nlohmann::json& json, const BodySample& s) {
-  json = {{"body", s.body},
-          {"process", s.process},
-          {"rebuild_ns", s.rebuild_ns},
-          {"step_ns", s.step_ns},
-          {"eventful_step_ns", s.eventful_step_ns}};
-}
-void from_json(const nlohmann::json& json, BodySample& s) {
-  json.at("body").get_to(s.body);
-  json.at("process").get_to(s.process);
-  json.at("rebuild_ns").get_to(s.rebuild_ns);
-  json.at("step_ns").get_to(s.step_ns);
-  json.at("eventful_step_ns").get_to(s.eventful_step_ns);
-}
+DARTBOARD_JSON_FIELDS(OperationSample, body, operation, process, ns, cpu_ns)
+DARTBOARD_JSON_FIELDS(BodySample, body, process, rebuild_ns, step_ns, eventful_step_ns)
 
 }  // namespace dartboard

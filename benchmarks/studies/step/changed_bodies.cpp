@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "benchmarks/harness/json_fields.h"
 #include "benchmarks/studies/step/scene_columns.h"
 #include "benchmarks/studies/step/step_bodies.h"
 #include "benchmarks/studies/topology/topology_tasks.h"
@@ -169,23 +170,6 @@ void measure_changed(const ChangedPlan& plan, const std::function<void(const Sam
   }
 }
 
-void to_json(nlohmann::json& json, const ChangedCase& c) {
-  json = {{"changed", c.changed},    {"body", c.body},       {"kind", c.kind},
-          {"asked", c.asked},        {"reached", c.reached}, {"tetrahedra", c.tetrahedra},
-          {"vertices", c.vertices},  {"springs", c.springs}, {"steps", c.steps},
-          {"differing", c.differing}};
-}
-void from_json(const nlohmann::json& json, ChangedCase& c) {
-  json.at("changed").get_to(c.changed);
-  json.at("body").get_to(c.body);
-  json.at("kind").get_to(c.kind);
-  json.at("asked").get_to(c.asked);
-  json.at("reached").get_to(c.reached);
-  json.at("tetrahedra").get_to(c.tetrahedra);
-  json.at("vertices").get_to(c.vertices);
-  json.at("springs").get_to(c.springs);
-  json.at("steps").get_to(c.steps);
-  json.at("differing").get_to(c.differing);
-}
+DARTBOARD_JSON_FIELDS(ChangedCase, changed, body, kind, asked, reached, tetrahedra, vertices, springs, steps, differing)
 
 }  // namespace dartboard

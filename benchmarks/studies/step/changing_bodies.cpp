@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "benchmarks/harness/json_fields.h"
 #include "benchmarks/studies/step/kept_columns.h"
 #include "benchmarks/studies/step/scene_columns.h"
 #include "benchmarks/studies/step/step_bodies.h"
@@ -236,17 +237,6 @@ void measure_changing(const ChangingPlan& plan, const std::function<void(const S
   }
 }
 
-void to_json(nlohmann::json& json, const ChangingCounts& c) {
-  json = {{"changing", c.changing}, {"tetrahedra", c.tetrahedra}, {"springs", c.springs},
-          {"steps", c.steps},       {"faces", c.faces},           {"differing", c.differing}};
-}
-void from_json(const nlohmann::json& json, ChangingCounts& c) {
-  json.at("changing").get_to(c.changing);
-  json.at("tetrahedra").get_to(c.tetrahedra);
-  json.at("springs").get_to(c.springs);
-  json.at("steps").get_to(c.steps);
-  json.at("faces").get_to(c.faces);
-  json.at("differing").get_to(c.differing);
-}
+DARTBOARD_JSON_FIELDS(ChangingCounts, changing, tetrahedra, springs, steps, faces, differing)
 
 }  // namespace dartboard

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "benchmarks/harness/json_fields.h"
 #include "benchmarks/studies/step/machine_limits.h"
 #include "benchmarks/studies/step/scene_columns.h"
 #include "core/base/padded_vector.h"
@@ -171,27 +172,7 @@ void measure_step_costs(const StepCostPlan& plan, const std::function<void(const
   }
 }
 
-void to_json(nlohmann::json& json, const StepCounts& c) {
-  json = {{"body", c.body},         {"tetrahedra", c.tetrahedra},
-          {"vertices", c.vertices}, {"springs", c.springs},
-          {"steps", c.steps},       {"lanes", c.lanes},
-          {"threads", c.threads},   {"arrays", c.arrays},
-          {"bytes", c.bytes},       {"copied_bytes", c.copied_bytes},
-          {"roots", c.roots},       {"differing", c.differing}};
-}
-void from_json(const nlohmann::json& json, StepCounts& c) {
-  json.at("body").get_to(c.body);
-  json.at("tetrahedra").get_to(c.tetrahedra);
-  json.at("vertices").get_to(c.vertices);
-  json.at("springs").get_to(c.springs);
-  json.at("steps").get_to(c.steps);
-  json.at("lanes").get_to(c.lanes);
-  json.at("threads").get_to(c.threads);
-  json.at("arrays").get_to(c.arrays);
-  json.at("bytes").get_to(c.bytes);
-  json.at("copied_bytes").get_to(c.copied_bytes);
-  json.at("roots").get_to(c.roots);
-  json.at("differing").get_to(c.differing);
-}
+DARTBOARD_JSON_FIELDS(StepCounts, body, tetrahedra, vertices, springs, steps, lanes, threads, arrays, bytes,
+                      copied_bytes, roots, differing)
 
 }  // namespace dartboard
