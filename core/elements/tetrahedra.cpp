@@ -6,13 +6,12 @@
 #include <variant>
 
 #include "core/base/lanes.h"
+#include "core/elements/element_term.h"
 #include "core/elements/lanes/material_runs.h"
 #include "core/elements/lanes/tetrahedra_lanes.h"
 #include "core/elements/part_of_elements.h"
 #include "core/elements/tetrahedra_damping.h"
 #include "core/elements/with_law.h"
-#include "core/forces/compensated_sum.h"
-#include "core/forces/force_size.h"
 
 namespace dartboard {
 namespace {
@@ -20,27 +19,59 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// V P F' is the virial of an element: its volume now, V det F, times Cauchy's stress. A fourth of it for each corner.
-template <class Law>
-Virial virial_share(const Law& law, double volume, const Matrix3d& f) {
-  const Matrix3d whole = (0.25 * volume) * (law.stress(f) * f.transpose());
-  return {0.5 * (whole + whole.transpose()), 0.25 * volume * (volume_ratio(law, f) - 1.0)};
+/// The one Gauss point of a tetrahedron.
+GaussPoint<3, 4> point_of(const RestShape& shape) {
+  GaussPoint<3, 4> point(4);
+  for (int a = 0; a < 3; ++a) point.gradient[static_cast<std::size_t>(a) + 1] = shape.row(a);
+  point.gradient[0] = -(point[1] + point[2] + point[3]);
+  return point;
 }
 
+template <class Law, class Line>
+Virial share_of(const Law& law, double volume, const RestShape& shape, const Line& line) {
+  return virial_share(
+      law, 4, [&](const auto& f) { f(point_of(shape), volume); }, line,
+      [](const auto& of, const Matrix3d& f) { return volume_ratio(of, f) - 1.0; });
+}
+
+class TetrahedronCells {
+ public:
+  static constexpr int d = 3;
+  static constexpr std::size_t most = 4;
+  explicit TetrahedronCells(const TetrahedronColumns& columns) : columns_(columns) {}
+
+  static std::string_view name() { return "tetrahedra"; }
+  std::size_t size() const { return columns_.nodes.size(); }
+  std::span<const std::uint32_t, 4> nodes(std::size_t c) const { return columns_.nodes[c]; }
+  template <class Laws, class F>
+  void for_each_point(const Laws& laws, std::size_t c, F&& f) const {
+    f(point_of(columns_.shape[c]), volume(laws, c));
+  }
+  template <class Laws>
+  double volume(const Laws& laws, std::size_t c) const {
+    return laws.per_mass(c) * columns_.mass[c];
+  }
+
+ private:
+  TetrahedronColumns columns_;
+};
+
+/// Elements whose forces have loops of their own: four tetrahedra at a time, or each without its Gauss point.
 template <class Laws>
-class Tetrahedra final : public ForceTerm {
+class Tetrahedra final : public ElementTerm<TetrahedronCells, Laws> {
+  using Base = ElementTerm<TetrahedronCells, Laws>;
+  using Base::cells_, Base::laws_, Base::size;
+
  public:
   Tetrahedra(const Laws& laws, const CellMaterials& materials, const TetrahedronColumns& columns)
-      : laws_(laws), materials_(materials), columns_(columns), damping_(make_tetrahedra_damping(materials, columns)) {}
-
-  std::string_view pieces_name() const override { return "tetrahedra"; }
-  std::size_t size() const override { return columns_.nodes.size(); }
-  Nodes nodes(std::size_t piece) const override { return columns_.nodes[piece]; }
+      : Base(laws, TetrahedronCells(columns)),
+        materials_(materials),
+        columns_(columns),
+        damping_(make_tetrahedra_damping(materials, columns)) {}
 
   void add_forces(const StagePlaces& at, std::span<Vector3d> force) const override {
     add_forces_of(at, 0, size(), force);
   }
-  bool adds_in_parts() const override { return true; }
   void add_forces_in_part(const StagePlaces& at, PieceRun run, VertexRange own,
                           std::span<Vector3d> force) const override {
     if (run.whole)
@@ -50,91 +81,9 @@ class Tetrahedra final : public ForceTerm {
           at, run.first, run.last, [own](std::uint32_t vertex) { return own.contains(vertex); }, force);
   }
 
-  void add_discrete_forces(const StagePlaces& at, std::span<Vector3d> force) const override {
-    for (std::size_t c = 0; c < size(); ++c) {
-      const TetrahedronNodes& n = columns_.nodes[c];
-      const Matrix3d from = gradient(at.x, n, columns_.shape[c]);
-      const Matrix3d move = (2.0 * at.t) * gradient(at.w, n, columns_.shape[c]);
-      add_force(n, columns_.shape[c], -volume(c) * discrete_stress(laws_[c], from, move), everywhere, force);
-    }
-  }
-
-  void add_force_sizes(const StagePlaces& at, std::span<double> size) const override {
-    for (std::size_t c = 0; c < columns_.nodes.size(); ++c) {
-      const TetrahedronNodes& n = columns_.nodes[c];
-      const auto gradients = shape_gradients(columns_.shape[c]);
-      double summed = 0.0;
-      for (std::size_t a = 1; a < 4; ++a) summed += line_size(at, n[0], n[a]) * gradients[a].norm();
-      const double stress = stress_size(laws_[c].modulus(), summed, gradient(at, n, columns_.shape[c]).norm());
-      for (std::size_t a = 0; a < 4; ++a) size[n[a]] += volume(c) * stress * gradients[a].norm();
-    }
-  }
-
-  double energy(std::span<const Vector3d> x, std::size_t first, std::size_t stride) const override {
-    CompensatedSum sum;
-    for (std::size_t c = first; c < size(); c += stride)
-      sum.add(volume(c) * laws_[c].energy(gradient(x, columns_.nodes[c], columns_.shape[c])));
-    return sum.value();
-  }
-
-  EnergyChange energy_change(const StagePlaces& at, std::span<const Vector3d> step, double scale) const override {
-    EnergyChange sum;
-    for (std::size_t c = 0; c < size(); ++c) {
-      const TetrahedronNodes& n = columns_.nodes[c];
-      const EnergyChange change =
-          laws_[c].change(gradient(at, n, columns_.shape[c]), scale * gradient(step, n, columns_.shape[c]));
-      sum.value += volume(c) * change.value;
-      sum.sizes += volume(c) * change.sizes;
-    }
-    return sum;
-  }
-
-  double power(std::span<const std::uint32_t> pieces, std::span<const Vector3d> x,
-               std::span<const Vector3d> w) const override {
-    double sum = 0.0;
-    for (const std::uint32_t c : pieces) {
-      const TetrahedronNodes& n = columns_.nodes[c];
-      const Matrix3d stress = laws_[c].stress(gradient(x, n, columns_.shape[c]));
-      sum -= volume(c) * stress.cwiseProduct(gradient(w, n, columns_.shape[c])).sum();
-    }
-    return sum;
-  }
-
-  void for_each_tangent(const StagePlaces& at, Compression compression, const VisitTangent& visit) const override {
-    std::array<Matrix3d, 10> blocks;
-    for (std::size_t c = 0; c < size(); ++c) {
-      const TetrahedronNodes& n = columns_.nodes[c];
-      const Hessian h = laws_[c].hessian(gradient(at, n, columns_.shape[c]), compression);
-      const auto gradients = shape_gradients(columns_.shape[c]);
-      const double v = volume(c);
-      // along the gradient of each corner, three columns of the Hessian
-      std::array<Eigen::Matrix<double, 9, 3>, 4> along;
-      for (std::size_t b = 0; b < 4; ++b)
-        along[b] = v * (gradients[b][0] * h.middleCols<3>(0) + gradients[b][1] * h.middleCols<3>(3) +
-                        gradients[b][2] * h.middleCols<3>(6));
-      for (std::size_t a = 0, k = 0; a < 4; ++a)
-        for (std::size_t b = 0; b <= a; ++b)
-          blocks[k++] = gradients[a][0] * along[b].middleRows<3>(0) + gradients[a][1] * along[b].middleRows<3>(3) +
-                        gradients[a][2] * along[b].middleRows<3>(6);
-      visit(n, blocks);
-    }
-  }
-
-  void for_each_constant_tangent(const VisitTangent& visit) const override {
-    std::array<Matrix3d, 10> blocks;
-    for (std::size_t c = 0; c < size(); ++c) {
-      const auto gradients = shape_gradients(columns_.shape[c]);
-      for (std::size_t a = 0, k = 0; a < 4; ++a)
-        for (std::size_t b = 0; b <= a; ++b)
-          blocks[k++] = (volume(c) * laws_[c].modulus() * gradients[a].dot(gradients[b])) * Matrix3d::Identity();
-      visit(columns_.nodes[c], blocks);
-    }
-  }
-
   Virial virial(std::span<const Vector3d> x, std::size_t c) const override {
-    return virial_share(laws_[c], volume(c), gradient(x, columns_.nodes[c], columns_.shape[c]));
+    return share_of(laws_[c], cells_.volume(laws_, c), columns_.shape[c], CornerLines<4>({x}, columns_.nodes[c]));
   }
-
   const TermDamping* damping() const override { return damping_.get(); }
 
   TermOfPart of_part(const VertexSubset& part) const override {
@@ -142,8 +91,6 @@ class Tetrahedra final : public ForceTerm {
   }
 
  private:
-  double volume(std::size_t c) const { return laws_.per_mass(c) * columns_.mass[c]; }
-
   static Matrix3d gradient(std::span<const Vector3d> x, const TetrahedronNodes& n, const Matrix3d& shape) {
     const Vector3d origin = x[n[0]];
     Matrix3d edges;
@@ -154,11 +101,6 @@ class Tetrahedra final : public ForceTerm {
     Matrix3d edges;
     edges << at.line(n[0], n[1]), at.line(n[0], n[2]), at.line(n[0], n[3]);
     return edges * shape;
-  }
-  /// The gradients [1/m] of the linear functions that are 1 at one corner and 0 at the others.
-  static std::array<Vector3d, 4> shape_gradients(const Matrix3d& shape) {
-    const Vector3d one = shape.row(0), two = shape.row(1), three = shape.row(2);
-    return {-(one + two + three), one, two, three};
   }
   static constexpr auto everywhere = [](std::uint32_t) { return true; };
 
@@ -223,7 +165,6 @@ class Tetrahedra final : public ForceTerm {
     }
   }
 
-  Laws laws_;
   CellMaterials materials_;
   TetrahedronColumns columns_;
   std::unique_ptr<TermDamping> damping_;
@@ -246,12 +187,10 @@ std::unique_ptr<ForceTerm> make_tetrahedra(const CellMaterials& materials, const
 
 Virial tetrahedron_virial(const Material& material, double mass, const RestShape& shape,
                           const std::array<Vector3d, 4>& x) {
-  Matrix3d edges;
-  edges << x[1] - x[0], x[2] - x[0], x[3] - x[0];
   const double volume = 1.0 / material.density * mass;
-  const Matrix3d f = edges * shape;
-  if (material.model == Model::springs) return virial_share(NoLaw(), volume, f);
-  return with_law_of(material, [&](const auto& law) { return virial_share(law, volume, f); });
+  const auto line = [&x](std::size_t a) -> Vector3d { return x[a] - x[0]; };
+  if (material.model == Model::springs) return share_of(NoLaw(), volume, shape, line);
+  return with_law_of(material, [&](const auto& law) { return share_of(law, volume, shape, line); });
 }
 
 }  // namespace dartboard
