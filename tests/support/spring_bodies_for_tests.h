@@ -59,4 +59,12 @@ inline std::vector<Eigen::Vector3d> random_vectors(std::size_t n, unsigned seed)
   return result;
 }
 
+/// A grid whose springs are longer at rest than it has room for.
+inline SpringArrays crushed_grid(double size) {
+  SpringArrays body = spring_grid(2, 2, 2);
+  for (Eigen::Vector3d& p : body.x) p *= size;
+  disturb(body, 0.01, 1.0);
+  return body;
+}
+
 }  // namespace dartboard

@@ -77,10 +77,7 @@ class Operated {
   void operate(ElementOperations& found, const ElementOperationsPlan& plan) {
     const auto follow = [&](const TopologyChange& change) {
       const ChangedEmbeddings changed = adapt(body_, change);
-      for (const auto [from, to] : changed.moved_cells) {
-        mesh_cell_[to] = mesh_cell_[from];
-        mesh_cell_.pop_back();
-      }
+      changed.move_cells(mesh_cell_);
       view_.apply(body_, changed);
       ends_.apply(body_, changed);
       attached_.apply(body_, changed);

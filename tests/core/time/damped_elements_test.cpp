@@ -18,7 +18,7 @@
 #include "core/time/system/energy.h"
 #include "core/time/watch/divergence.h"
 #include "core/time/watch/stable_step.h"
-#include "tests/support/bodies/element_body_for_tests.h"
+#include "tests/support/bodies/bar_of_elements_for_tests.h"
 
 namespace dartboard::damped_elements_test {
 namespace {
@@ -113,38 +113,6 @@ TEST(DampedElements, LoseInAPeriodWhatTheRatioSays) {
 
 constexpr double strong = 0.02;  // [s]
 
-// A bar that spins, bends and is stretched: 36 tetrahedra, free or held at one end.
-ElementBody bar(Model model, double damping_time, bool held = false) {
-  ElementBody body(kuhn_box(3, 1, 2, 0.1, 0.15, 5), model, young, 0.3, density, damping_time);
-  for (std::size_t i = 0; i < body.x.size(); ++i) {
-    const Vector3d r = body.rest[i];
-    body.x[i] += Vector3d(0.1 * r[0], 0.3 * r[0] * r[0], 0.05 * r[1]);
-    body.v[i] = Vector3d(0.2, -0.1, 0.3) + Vector3d(1.0, 2.0, -1.5).cross(r);
-    if (held && r[0] < 1e-9) {
-      body.fixed[i] = 1;
-      body.x[i] = r;
-      body.v[i].setZero();
-    }
-  }
-  return body;
-}
-
-struct Outcome {
-  ElementBody body;
-  StepResult result;
-};
-Outcome run(ElementBody body, std::string_view integrator, double duration, int steps) {
-  const auto method = make_integrator(integrator);
-  StepResult result;
-  for (int k = 0; k < steps && result.ok(); ++k) result = method->step(body.system(), body.motion(), duration / steps);
-  return {std::move(body), result};
-}
-double distance(const ElementBody& a, const ElementBody& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.x.size(); ++i) sum += (a.x[i] - b.x[i]).squaredNorm();
-  return std::sqrt(sum / static_cast<double>(a.x.size()));
-}
-
 /// M^-1/2 A M^-1/2, entry by entry.
 Eigen::MatrixXd over_masses(const ElementBody& body, const BlockMatrix& matrix) {
   const auto n = static_cast<Eigen::Index>(3 * body.x.size());
@@ -222,8 +190,8 @@ TEST(DampedElements, KeepTheOrderOfEveryIntegrator) {
     const Scheme& scheme = make_integrator(entry.name)->scheme();
     if (scheme.compensated || std::string(entry.name) == "local-global") continue;  // as ElementMotion has it
     const int coarse = scheme.order == 4 ? 64 : scheme.order == 5 ? 32 : 512;
-    const Outcome first = run(bar(Model::neo_hookean, damping_time, true), entry.name, duration, coarse),
-                  second = run(bar(Model::neo_hookean, damping_time, true), entry.name, duration, 2 * coarse);
+    const BarOutcome first = run(bar(Model::neo_hookean, damping_time, true), entry.name, duration, coarse),
+                     second = run(bar(Model::neo_hookean, damping_time, true), entry.name, duration, 2 * coarse);
     ASSERT_TRUE(first.result.ok() && second.result.ok()) << entry.name << ": " << to_string(first.result);
     const double order = std::log2(distance(first.body, truth) / distance(second.body, truth));
     EXPECT_NEAR(order, scheme.order, scheme.order >= 4 ? 0.35 : 0.15)
@@ -238,7 +206,7 @@ TEST(DampedElements, KeepLinearAndAngularMomentum) {
     const bool splits = std::string(integrator) == "verlet" || std::string(integrator) == "symplectic-euler";
     // blanes-moan-4 is stable for weak damping alone
     const bool weak = std::string(integrator) == "blanes-moan-4";
-    const Outcome end = run(bar(Model::neo_hookean, weak ? 1e-3 : strong), integrator, 0.1, 400);
+    const BarOutcome end = run(bar(Model::neo_hookean, weak ? 1e-3 : strong), integrator, 0.1, 400);
     ASSERT_TRUE(end.result.ok()) << integrator << ": " << to_string(end.result);
     const SpringSystem system = end.body.system();
     const Vector3d p = linear_momentum(system, start.v), l = angular_momentum(system, start.x, start.v);
@@ -274,9 +242,9 @@ TEST(DampedElements, AreStableHoweverStrongTheyAreDamped) {
 
 // Local/global iterations end where backward Euler does.
 TEST(DampedElements, AreSolvedForByAConstantMatrixToo) {
-  const Outcome newton = run(bar(Model::neo_hookean, 1e-3, true), "backward-euler", 0.02, 40),
-                constant = run(bar(Model::neo_hookean, 1e-3, true), "local-global", 0.02, 40),
-                undamped = run(bar(Model::neo_hookean, 0.0, true), "local-global", 0.02, 40);
+  const BarOutcome newton = run(bar(Model::neo_hookean, 1e-3, true), "backward-euler", 0.02, 40),
+                   constant = run(bar(Model::neo_hookean, 1e-3, true), "local-global", 0.02, 40),
+                   undamped = run(bar(Model::neo_hookean, 0.0, true), "local-global", 0.02, 40);
   ASSERT_TRUE(newton.result.ok() && constant.result.ok());
   // twenty iterations leave a hundredth of the effect of damping
   EXPECT_LT(distance(newton.body, constant.body), 0.02 * distance(newton.body, undamped.body));

@@ -11,58 +11,26 @@
 #include "core/time/system/energy.h"
 #include "core/time/watch/divergence.h"
 #include "core/time/watch/stable_step.h"
-#include "tests/support/bodies/element_body_for_tests.h"
+#include "tests/support/bodies/bar_of_elements_for_tests.h"
 
 namespace dartboard::element_motion_test {
 namespace {
 
 using Eigen::Vector3d;
 
-// A bar that spins, bends and is stretched: 36 tetrahedra, free or held at one end.
-ElementBody bar(Model model, bool held = false) {
-  ElementBody body(kuhn_box(3, 1, 2, 0.1, 0.15, 5), model, 2e4, 0.3);
-  for (std::size_t i = 0; i < body.x.size(); ++i) {
-    const Vector3d r = body.rest[i];
-    body.x[i] += Vector3d(0.1 * r[0], 0.3 * r[0] * r[0], 0.05 * r[1]);
-    body.v[i] = Vector3d(0.2, -0.1, 0.3) + Vector3d(1.0, 2.0, -1.5).cross(r);
-    if (held && r[0] < 1e-9) {
-      body.fixed[i] = 1;
-      body.x[i] = r;
-      body.v[i].setZero();
-    }
-  }
-  return body;
-}
-
-struct Outcome {
-  ElementBody body;
-  StepResult result;
-};
-Outcome run(ElementBody body, std::string_view integrator, double duration, int steps) {
-  const auto method = make_integrator(integrator);
-  StepResult result;
-  for (int k = 0; k < steps && result.ok(); ++k) result = method->step(body.system(), body.motion(), duration / steps);
-  return {std::move(body), result};
-}
-double distance(const ElementBody& a, const ElementBody& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.x.size(); ++i) sum += (a.x[i] - b.x[i]).squaredNorm();
-  return std::sqrt(sum / static_cast<double>(a.x.size()));
-}
-
 // Halving a step that resolves the fastest motion divides the error by 2^p, to the next term of its series.
 TEST(ElementMotion, HasTheOrderOfEveryIntegrator) {
   const double duration = 0.02;
   for (const Model model : {Model::neo_hookean, Model::corotational}) {
-    const ElementBody truth = run(bar(model, true), "rk4", duration, 8192).body;
+    const ElementBody truth = run(bar(model, 0.0, true), "rk4", duration, 8192).body;
     for (const IntegratorEntry& entry : integrators()) {
       const auto method = make_integrator(entry.name);
       const Scheme& scheme = method->scheme();
       // it chooses its own steps, or its errors are rounding here
       if (scheme.compensated || std::string(entry.name) == "local-global") continue;
       const int coarse = scheme.order == 4 ? 64 : scheme.order == 5 ? 32 : 512;
-      const Outcome first = run(bar(model, true), entry.name, duration, coarse),
-                    second = run(bar(model, true), entry.name, duration, 2 * coarse);
+      const BarOutcome first = run(bar(model, 0.0, true), entry.name, duration, coarse),
+                       second = run(bar(model, 0.0, true), entry.name, duration, 2 * coarse);
       ASSERT_TRUE(first.result.ok() && second.result.ok()) << entry.name << ": " << to_string(first.result);
       const double order = std::log2(distance(first.body, truth) / distance(second.body, truth));
       EXPECT_NEAR(order, scheme.order, scheme.order >= 4 ? 0.35 : 0.15)
@@ -76,7 +44,7 @@ TEST(ElementMotion, KeepsLinearAndAngularMomentum) {
   for (const Model model : element_models)
     for (const char* integrator : {"verlet", "blanes-moan-4", "implicit-midpoint", "energy-momentum"}) {
       const ElementBody start = bar(model);
-      const Outcome end = run(bar(model), integrator, 0.1, 400);
+      const BarOutcome end = run(bar(model), integrator, 0.1, 400);
       ASSERT_TRUE(end.result.ok()) << integrator << ": " << to_string(end.result);
       const SpringSystem system = end.body.system();
       const Vector3d p = linear_momentum(system, start.v), l = angular_momentum(system, start.x, start.v);
@@ -92,7 +60,7 @@ TEST(ElementMotion, KeepsItsEnergyWithEnergyMomentum) {
   for (const Model model : element_models) {
     const ElementBody start = bar(model);
     const double before = total_energy(start.system(), start.x, start.v);
-    const Outcome end = run(bar(model), "energy-momentum", 0.2, 100);
+    const BarOutcome end = run(bar(model), "energy-momentum", 0.2, 100);
     ASSERT_TRUE(end.result.ok()) << to_string(end.result);
     EXPECT_NEAR(total_energy(end.body.system(), end.body.x, end.body.v) / before, 1.0, 1e-11) << name(model);
   }
@@ -102,7 +70,7 @@ TEST(ElementMotion, KeepsItsEnergyWithEnergyMomentum) {
 TEST(ElementMotion, ComesToRestFromAnyShapeByImplicitSteps) {
   for (const Model model : {Model::neo_hookean, Model::corotational})
     for (const char* integrator : {"backward-euler", "local-global"}) {
-      ElementBody body = bar(model, true);
+      ElementBody body = bar(model, 0.0, true);
       body.shake(0.06, 3);  // inverts some
       for (std::size_t i = 0; i < body.x.size(); ++i)
         if (body.fixed[i]) body.x[i] = body.rest[i];
@@ -144,7 +112,7 @@ double highest_frequency(const ElementBody& body) {
 TEST(ElementMotion, HasItsHighestFrequencyBracketed) {
   for (const Model model : element_models)
     for (const bool held : {false, true}) {
-      const ElementBody body = bar(model, held);
+      const ElementBody body = bar(model, 0.0, held);
       const double omega = highest_frequency(body);
       StableStepEstimate estimate;
       StableStep limits = estimate.refresh(body.system(), body.x);

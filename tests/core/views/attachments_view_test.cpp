@@ -58,10 +58,7 @@ struct Attached {
     return made;
   }
   void follow(const ChangedEmbeddings& changed) {
-    for (const auto [from, to] : changed.moved_cells) {
-      mesh_cell[to] = mesh_cell[from];
-      mesh_cell.pop_back();
-    }
+    changed.move_cells(mesh_cell);
     view.apply(body, changed);
   }
   double energy() const { return term->energy(body.vertices.position); }

@@ -91,10 +91,7 @@ struct PressedBody {
     return made;
   }
   void follow(const ChangedEmbeddings& changed) {
-    for (const auto [from, to] : changed.moved_cells) {
-      mesh_cell[to] = mesh_cell[from];
-      mesh_cell.pop_back();
-    }
+    changed.move_cells(mesh_cell);
     view.apply(body, changed);
   }
   /// All faces by the cells that are left, with their vertices by the points of the mesh.

@@ -25,13 +25,6 @@ SpringArrays moving_grid(double damping = 0.05) {
   return body;
 }
 
-SpringArrays crushed_grid(double size) {
-  SpringArrays body = spring_grid(2, 2, 2);
-  for (Vector3d& p : body.x) p *= size;
-  disturb(body, 0.01, 1.0);
-  return body;
-}
-
 struct Solved {
   StepResult result;
   WorkCounters work;

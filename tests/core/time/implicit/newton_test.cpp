@@ -31,13 +31,6 @@ SpringArrays stiff_grid() {
   return body;
 }
 
-SpringArrays crushed_grid(double size) {
-  SpringArrays body = spring_grid(2, 2, 2);
-  for (Vector3d& p : body.x) p *= size;
-  disturb(body, 0.01, 1.0);
-  return body;
-}
-
 struct Solved {
   StepResult result;
   WorkCounters work;
