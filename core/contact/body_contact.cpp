@@ -100,7 +100,7 @@ void BodyContact::look_at(std::uint32_t s, const Tetrahedra& tetrahedra, const N
     touch.depth = 0.0;
     one.cover = BodyTouch::none;
     one.on_border = side == Side::border;
-    touch.law = groups_.law(solids_.group_at(sample.nodes[0]), tetrahedron.group);
+    touch.law = groups_.law(group_of(s), tetrahedron.group);
     touch.area = 0.5 * sample.area;
     if (may_be_covered) one.border = narrow * laws_[touch.law].depth;
     const bool is_followed = nearby.ways == Ways::followed && !one.on_border;
@@ -163,7 +163,7 @@ void BodyContact::find_among_candidates(const StagePlaces& at) const {
 
 /// All tetrahedra of groups that the sample may touch.
 void BodyContact::find_partners(std::uint32_t sample) const {
-  const std::uint32_t group = solids_.group_at(samples_[sample].nodes[0]);
+  const std::uint32_t group = group_of(sample);
   partners_.clear();
   for (std::uint32_t t = 0; t < solids_.tetrahedra().size(); ++t)
     if (groups_.law(group, solids_.tetrahedra()[t].group) != ContactGroups::none) partners_.push_back(t);
@@ -228,50 +228,17 @@ std::vector<BodyTouch> BodyContact::touching_by_brute_force(const StagePlaces& a
 }
 
 ContactSite BodyContact::normal_site(const BodyTouch& touch) const {
-  const SkinSample& sample = samples_[touch.sample];
+  ContactSite site(samples_[touch.sample]);
   const SkinTriangle& triangle = solids_.triangles()[touch.triangle];
-  ContactSite site;
-  for (const std::uint32_t i : sample.corners()) site.add(i, 1.0 / static_cast<double>(sample.count));
   for (std::size_t k = 0; k < 3; ++k) site.add(triangle.nodes[k], -touch.nearest[k]);
   return site;
 }
 
 ContactSite BodyContact::tangential_site(const BodyTouch& touch) const {
-  const SkinSample& sample = samples_[touch.sample];
+  ContactSite site(samples_[touch.sample]);
   const SkinTetrahedron& tetrahedron = solids_.tetrahedra()[touch.tetrahedron];
-  ContactSite site;
-  for (const std::uint32_t i : sample.corners()) site.add(i, 1.0 / static_cast<double>(sample.count));
   for (std::size_t k = 0; k < 4; ++k) site.add(tetrahedron.nodes[k], -touch.inside[k]);
   return site;
-}
-
-// ---- reports
-
-BodyContactState BodyContact::state_at(std::span<const Vector3d> x) const {
-  BodyContactState state;
-  CompensatedSum energy;
-  for (const BodyTouch& t : touching({x})) {
-    ++state.contacts;
-    state.area += t.area;
-    energy.add(laws_[t.law].energy(t.area, t.depth));
-    state.deepest_share = std::max(state.deepest_share, t.depth / laws_[t.law].depth);
-    if (t.depth <= state.deepest) continue;
-    state.deepest = t.depth;
-    state.sample = t.sample;
-    state.from = solids_.group_at(samples_[t.sample].nodes[0]);
-    state.into = solids_.tetrahedra()[t.tetrahedron].group;
-  }
-  state.energy = energy.value();
-  state.out_of_reach = lost_.size();
-  if (!lost_.empty()) state.lost = lost_.front().sample;
-  state.inverted = inverted_;
-  return state;
-}
-
-void BodyContact::raise_vertex_depths(std::span<const Vector3d> x, std::span<double> depth) const {
-  for (const BodyTouch& t : touching({x}))
-    if (const SkinSample& s = samples_[t.sample]; s.count == 1)
-      depth[s.nodes[0]] = std::max(depth[s.nodes[0]], t.depth);
 }
 
 /// Is the sample of an earlier touch inside still, by at least half as much, and beyond the tetrahedra along the
@@ -335,12 +302,11 @@ double BodyContact::least_altitude(std::span<const Vector3d> x) const {
 }
 
 double BodyContact::largest_stiffness(std::uint32_t sample, double share_of_depth) const {
-  const SkinSample& s = samples_[sample];
-  const std::uint32_t group = solids_.group_at(s.nodes[0]);
+  const std::uint32_t group = group_of(sample);
   double largest = 0.0;
   for (std::uint32_t other = 0; other < groups_.count(); ++other)
     if (const std::uint32_t law = groups_.law(group, other); law != ContactGroups::none)
-      largest = std::max(largest, laws_[law].stiffness(0.5 * s.area, share_of_depth * laws_[law].depth));
+      largest = std::max(largest, laws_[law].stiffness(0.5 * samples_[sample].area, share_of_depth * laws_[law].depth));
   return largest;
 }
 
@@ -384,7 +350,7 @@ BodyContact::Nodes BodyContact::nodes(std::size_t piece) const {
 
 void BodyContact::add_forces(const StagePlaces& at, std::span<Vector3d> force) const {
   for (const BodyTouch& t : touching(at)) normal_site(t).add_to(force, laws_[t.law].force(t.area, t.depth) * t.normal);
-  for (const BodyFriction& f : frozen_) f.site.add_to(force, f.force);
+  frozen_.add_forces(force);
 }
 
 void BodyContact::add_discrete_forces(const StagePlaces&, std::span<Vector3d>) const {
@@ -392,26 +358,22 @@ void BodyContact::add_discrete_forces(const StagePlaces&, std::span<Vector3d>) c
 }
 
 void BodyContact::add_force_sizes(const StagePlaces& at, std::span<double> size) const {
-  const auto add = [size](const ContactSite& site, double force) {
-    for (std::size_t k = 0; k < site.count; ++k) size[site.nodes[k]] += std::abs(site.weights[k]) * force;
-  };
   for (const BodyTouch& t : touching(at)) {
     // the depth is a difference of coordinates, and its rounding turns the line
     const ContactSite site = normal_site(t);
     double coordinates = 0.0;
     for (std::size_t k = 0; k < site.count; ++k) coordinates = std::max(coordinates, at.place(site.nodes[k]).norm());
     const double force = laws_[t.law].force(t.area, t.depth);
-    add(site, force + 4.0 * (laws_[t.law].stiffness(t.area, t.depth) + force / t.depth) * coordinates);
+    site.add_size_to(size, force + 4.0 * (laws_[t.law].stiffness(t.area, t.depth) + force / t.depth) * coordinates);
   }
-  for (const BodyFriction& f : frozen_) add(f.site, f.force.norm());
+  frozen_.add_force_sizes(size);
 }
 
 double BodyContact::energy(std::span<const Vector3d> x, std::size_t first, std::size_t stride) const {
   CompensatedSum sum;
   for (const BodyTouch& t : touching({x}))
     if (t.sample >= first && (t.sample - first) % stride == 0) sum.add(laws_[t.law].energy(t.area, t.depth));
-  for (const BodyFriction& f : frozen_)
-    if (f.sample >= first && (f.sample - first) % stride == 0) sum.add(-f.force.dot(f.site.difference(x) - f.from));
+  frozen_.add_energy(x, first, stride, sum);
   return sum.value();
 }
 
@@ -448,18 +410,14 @@ EnergyChange BodyContact::energy_change(const StagePlaces& at, std::span<const V
     if (same) ++after;
   }
   for (; after != touching_.end(); ++after) add(nullptr, &*after);
-  for (const BodyFriction& f : frozen_) {
-    const Vector3d way = scale * f.site.difference(step);
-    sum.value -= f.force.dot(way);
-    sum.sizes += f.force.norm() * way.norm();
-  }
+  frozen_.add_change(step, scale, sum);
   return sum;
 }
 
 double BodyContact::power(std::span<const std::uint32_t> pieces, std::span<const Vector3d> x,
                           std::span<const Vector3d> w) const {
   const auto touches = touching({x});
-  if (touches.empty() && frozen_.empty()) return 0.0;
+  if (touches.empty() && frozen_.rows.empty()) return 0.0;
   const std::size_t triangles = samples_.size(), tetrahedra = triangles + solids_.triangles().size();
   asked_.assign(size(), 0);
   for (const std::uint32_t piece : pieces) asked_[piece] = 1;
@@ -477,7 +435,7 @@ double BodyContact::power(std::span<const std::uint32_t> pieces, std::span<const
     if (asked_[t.sample] != 0) sum += force.dot(of_sample(t.sample));
     if (asked_[triangles + t.triangle] != 0) sum -= force.dot(speed(solids_.triangles()[t.triangle].nodes, t.nearest));
   }
-  for (const BodyFriction& f : frozen_) {
+  for (const ContactFriction& f : frozen_.rows) {
     if (asked_[f.sample] != 0) sum += f.force.dot(of_sample(f.sample));
     if (asked_[tetrahedra + f.tetrahedron] == 0) continue;
     for (std::size_t k = samples_[f.sample].count; k < f.site.count; ++k)
@@ -528,7 +486,7 @@ void BodyContact::for_each_constant_tangent(const VisitTangent& visit) const {
 }
 
 std::size_t BodyContact::bytes() const {
-  return bytes_of(laws_, frozen_, touching_, lost_, earlier_, before_, gone_) +
+  return bytes_of(laws_, frozen_.rows, touching_, lost_, earlier_, before_, gone_) +
          bytes_of(searched_, after_, touching_aside_, lost_aside_, near_, partners_, asked_, by_triangle_) +
          groups_.bytes() + candidates_.bytes() + ways_->bytes();
 }

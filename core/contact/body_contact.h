@@ -12,9 +12,9 @@
 
 #include "core/contact/candidate_pairs.h"
 #include "core/contact/contact_law.h"
-#include "core/contact/contact_site.h"
 #include "core/contact/skin_samples.h"
 #include "core/contact/skin_solids.h"
+#include "core/contact/touch.h"
 #include "core/forces/force_term.h"
 
 namespace dartboard {
@@ -38,36 +38,6 @@ struct BodyTouch {
   Eigen::Vector3d normal{0, 0, 0};  // outwards, of length 1: the force on the sample is along it
   std::array<double, 3> nearest{};  // weights of the nearest point over the triangle's corners
   std::array<double, 4> inside{};   // weights of the sample's own place over the tetrahedron's
-};
-
-/// The friction force, during a step, between two places that coincide half way through it.
-struct BodyFriction {
-  std::uint32_t sample = 0, tetrahedron = 0;
-  ContactSite site;                // sample, less its place in the tetrahedron
-  Eigen::Vector3d force{0, 0, 0};  // [N] on the sample
-  Eigen::Vector3d from{0, 0, 0};   // [m] the difference of the two places before the step
-
-  /// Writes or reads it between steps: the next step starts from it.
-  template <class Archive>
-  void state(Archive& archive) {
-    archive(sample, tetrahedron, force);
-  }
-};
-
-/// What a run reports of the contacts between its bodies.
-struct BodyContactState {
-  static constexpr std::uint32_t none = BodyTouch::none;
-
-  std::size_t contacts = 0;          // samples inside a body
-  double area = 0.0;                 // [m^2] that these stand for, half of the area of each
-  double energy = 0.0;               // [J]
-  double deepest = 0.0;              // [m]; 0 without a contact
-  std::uint32_t sample = none;       // the deepest, the first of equal ones
-  std::uint32_t from = 0, into = 0;  // its group, and that of the body it is inside of
-  double deepest_share = 0.0;        // the largest depth over the `depth` of its law
-  std::size_t out_of_reach = 0;      // samples inside without a way out in reach: these have no contact
-  std::uint32_t lost = none;         // the first of them
-  std::size_t inverted = 0;          // candidates that were ignored because they are turned inside out
 };
 
 class WaysOut;
@@ -137,6 +107,8 @@ class BodyContact final : public ForceTerm {
   double room_at(std::span<const Eigen::Vector3d> x) const { return follows_ ? 0.0 : candidates_.room_at({x}); }
   /// The samples out of reach at the same places, without triangle and depth.
   std::span<const BodyTouch> out_of_reach() const { return lost_; }
+  /// The number of candidates there that were ignored because they are turned inside out.
+  std::size_t inverted() const { return inverted_; }
   /// The same two by testing every sample with every tetrahedron: the oracle of lists.
   /// cost  O(samples times tetrahedra)
   std::vector<BodyTouch> touching_by_brute_force(const StagePlaces& at, std::vector<BodyTouch>* out_of_reach) const;
@@ -146,9 +118,10 @@ class BodyContact final : public ForceTerm {
   /// The site of forces across the normal: the sample, less its own place in the other body.
   ContactSite tangential_site(const BodyTouch& touch) const;
 
-  BodyContactState state_at(std::span<const Eigen::Vector3d> x) const;
-  /// By vertex: raises `depth` to the largest depth [m] of a sample at the vertex; others are left unchanged.
-  void raise_vertex_depths(std::span<const Eigen::Vector3d> x, std::span<double> depth) const;
+  /// The group of a sample, and that of the body that it is inside of.
+  std::uint32_t group_of(std::uint32_t sample) const { return solids_.group_at(samples_[sample].nodes[0]); }
+  std::uint32_t group_entered(const BodyTouch& touch) const { return solids_.tetrahedra()[touch.tetrahedron].group; }
+
   /// The samples that have moved inwards beyond all candidates since the last call, or are out of reach, with the last
   /// known depth, which is less than the present one. After a change of the skin only samples out of reach are found.
   std::span<const BodyTouch> find_lost(std::span<const Eigen::Vector3d> x);
@@ -167,10 +140,9 @@ class BodyContact final : public ForceTerm {
   /// The same for the contacts at x: an upper bound of their present contribution.
   double frequency_squared_at(std::span<const Eigen::Vector3d> x, std::span<const double> inverse_mass) const;
 
-  /// The friction forces during a step, as in ObstacleContact: constant, with the energy - F . (difference - from).
-  /// ContactImpulses sets them, in the order of samples.
-  std::span<const BodyFriction> frozen_friction() const { return frozen_; }
-  std::vector<BodyFriction>& frozen_friction_to_set() { return frozen_; }
+  /// The friction during a step, in all functions below.
+  std::span<const ContactFriction> frozen_friction() const { return frozen_.rows; }
+  std::vector<ContactFriction>& frozen_friction_to_set() { return frozen_.rows; }
 
   std::string_view pieces_name() const override { return "samples, triangles and tetrahedra along boundaries"; }
   std::size_t size() const override {
@@ -218,7 +190,7 @@ class BodyContact final : public ForceTerm {
   std::vector<ContactLaw> laws_;
   ContactGroups groups_;
   bool friction_ = false, damping_ = false;
-  std::vector<BodyFriction> frozen_;
+  FrozenFriction frozen_;
 
   mutable CandidatePairs candidates_;
   mutable std::vector<BodyTouch> touching_, lost_, earlier_;

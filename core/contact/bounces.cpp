@@ -29,19 +29,19 @@ double damped(double rate, double first, double a, double most, double t) {
 
 }  // namespace
 
-Bounces::Bounces(ObstacleContact* obstacles, BodyContact* bodies) : obstacles_(obstacles), bodies_(bodies) {
-  if (obstacles_ != nullptr)
-    for (const ContactLaw& law : obstacles_->laws()) loss_.push_back(law.loss());
-  if (bodies_ != nullptr)
-    for (const ContactLaw& law : bodies_->laws()) loss_of_bodies_.push_back(law.loss());
+Bounces::Bounces(const Contacts& contacts) : contacts_(contacts) {
+  if (contacts_.obstacles != nullptr)
+    for (const ContactLaw& law : contacts_.obstacles->laws()) loss_.push_back(law.loss());
+  if (contacts_.bodies != nullptr)
+    for (const ContactLaw& law : contacts_.bodies->laws()) loss_of_bodies_.push_back(law.loss());
 }
 
-bool Bounces::has_losses() const {
-  return (obstacles_ != nullptr && obstacles_->has_damping()) || (bodies_ != nullptr && bodies_->has_damping());
+double Bounces::loss_of(const Touch& touch) const {
+  return touch.in_body != nullptr ? loss_of_bodies_[touch.in_body->law] : loss_[touch.obstacle];
 }
 
 bool Bounces::before(const Step& step, ContactLosses& losses) {
-  if (!has_losses()) return false;
+  if (!contacts_.has_damping()) return false;
   starts_before_ = starts_;
   v_before_.assign(step.v.begin(), step.v.end());
   find_touches(step);
@@ -51,7 +51,7 @@ bool Bounces::before(const Step& step, ContactLosses& losses) {
 }
 
 bool Bounces::after(const Step& step, ContactLosses& losses) {
-  if (!has_losses()) return false;
+  if (!contacts_.has_damping()) return false;
   find_touches(step);
   match_starts(Side::after, step);
   const bool changed = damp(Side::after, step, losses);
@@ -63,42 +63,24 @@ bool Bounces::after(const Step& step, ContactLosses& losses) {
   return changed;
 }
 
-void Bounces::add(Touch touch, std::uint32_t sample, std::uint32_t obstacle, const Step& step) {
-  if (touch.site.mobility(step.inverse_mass, step.held) == 0.0) return;
-  // 0 where the normal is along held axes; it may turn while they touch
-  touch.mobility = touch.site.mobility_along(touch.normal, step.inverse_mass, step.held);
-  touches_.push_back(touch);
-  starts_.push_back({.sample = sample, .obstacle = obstacle});
-}
-
 /// Fills the touches, and for each a start that only names it.
 void Bounces::find_touches(const Step& step) {
   earlier_.swap(starts_);
   starts_.clear();
   touches_.clear();
-  if (step.near_obstacles && obstacles_ != nullptr && obstacles_->has_damping())
-    obstacles_->for_each_touch(step.x, [&](std::uint32_t k, std::uint32_t o, const Penetration& in) {
-      if (loss_[o] == 0.0) return;
-      const SkinSample& sample = obstacles_->samples()[k];
-      Touch touch{.normal = in.normal,
-                  .law = &obstacles_->laws()[o],
-                  .loss = loss_[o],
-                  .area = sample.area,
-                  .depth = in.depth,
-                  .carried = obstacles_->obstacles()[o].velocity_at(step.time).dot(in.normal)};
-      for (const std::uint32_t i : sample.corners()) touch.site.add(i, 1.0 / sample.count);
-      add(touch, k, o, step);
-    });
-  if (step.near_bodies && bodies_ != nullptr && bodies_->has_damping())
-    for (const BodyTouch& t : bodies_->touching({step.x}))
-      if (loss_of_bodies_[t.law] > 0.0)
-        add({.site = bodies_->normal_site(t),
-             .normal = t.normal,
-             .law = &bodies_->laws()[t.law],
-             .loss = loss_of_bodies_[t.law],
-             .area = t.area,
-             .depth = t.depth},
-            t.sample, body, step);
+  step.near.for_each_touch({step.x}, [&](const Touch& found) {
+    LossyTouch touch{found};
+    touch.loss = loss_of(found);
+    if (touch.loss == 0.0) return;
+    touch.site = contacts_.normal_site(found);
+    if (touch.site.mobility(step.inverse_mass, step.held) == 0.0) return;
+    // 0 where the normal is along held axes; it may turn while they touch
+    touch.mobility = touch.site.mobility_along(touch.normal, step.inverse_mass, step.held);
+    if (found.in_body == nullptr)
+      touch.carried = contacts_.obstacles->obstacles()[found.obstacle].velocity_at(step.time).dot(touch.normal);
+    touches_.push_back(touch);
+    starts_.push_back({.sample = found.sample, .obstacle = found.obstacle});
+  });
 }
 
 std::array<std::uint32_t, 4> Bounces::whole_nodes(const SkinSample& sample) const {
@@ -109,7 +91,7 @@ std::array<std::uint32_t, 4> Bounces::whole_nodes(const SkinSample& sample) cons
 }
 
 const SkinSample* Bounces::sample_of(const Start& start) const {
-  const std::vector<SkinSample>& samples = start.obstacle == body ? bodies_->samples() : obstacles_->samples();
+  const std::vector<SkinSample>& samples = contacts_.samples(start.is_of_bodies());
   return start.sample < samples.size() ? &samples[start.sample] : nullptr;
 }
 
@@ -123,25 +105,24 @@ void Bounces::find_samples() {
   if (std::ranges::all_of(earlier_, is_found)) return;
   std::vector<Start> found;
   std::ranges::sort(earlier_, {}, &Start::nodes);
-  const auto look_among = [&](const std::vector<SkinSample>& samples, bool of_bodies) {
+  for (const bool of_bodies : {false, true}) {
+    const std::vector<SkinSample>& samples = contacts_.samples(of_bodies);
     for (std::uint32_t k = 0; k < samples.size(); ++k) {
       const auto nodes = whole_nodes(samples[k]);
       auto old = std::ranges::lower_bound(earlier_, nodes, {}, &Start::nodes);
       for (; old != earlier_.end() && old->nodes == nodes; ++old) {
-        if ((old->obstacle == body) != of_bodies) continue;
+        if (old->is_of_bodies() != of_bodies) continue;
         found.push_back(*old);
         found.back().sample = k;
       }
     }
-  };
-  if (obstacles_ != nullptr) look_among(obstacles_->samples(), false);
-  if (bodies_ != nullptr) look_among(bodies_->samples(), true);
+  }
   std::ranges::sort(found, {}, &Start::order);
   earlier_ = std::move(found);
 }
 
 /// The first rate of a touch that has not been there before.
-double Bounces::first_rate(const Touch& touch, Side side, const Step& step) const {
+double Bounces::first_rate(const LossyTouch& touch, Side side, const Step& step) const {
   const double rate = touch.rate(step.v), earlier = side == Side::after ? touch.rate(v_before_) : 0.0;
   if (side == Side::after && rate + earlier > 0.0)  // back to the moment at which it met the surface
     return rate + std::min(1.0, 2.0 * touch.depth / (step.h * (rate + earlier))) * (earlier - rate);
@@ -151,11 +132,11 @@ double Bounces::first_rate(const Touch& touch, Side side, const Step& step) cons
 /// The start of a sample that was in another of the blocks that this obstacle is joined with; null if there is no such.
 const Bounces::Start* Bounces::passed_on(const std::vector<Start>& among, std::uint32_t sample,
                                          std::uint32_t obstacle) const {
-  if (obstacle == body) return nullptr;
+  if (obstacle == Touch::body) return nullptr;
   const Start first{.sample = sample};
   auto old = std::ranges::lower_bound(among, first.order(), {}, &Start::order);
-  for (; old != among.end() && old->sample == sample && old->obstacle != body; ++old)
-    if (obstacles_->are_joined(old->obstacle, obstacle)) return &*old;
+  for (; old != among.end() && old->sample == sample && !old->is_of_bodies(); ++old)
+    if (contacts_.obstacles->are_joined(old->obstacle, obstacle)) return &*old;
   return nullptr;
 }
 
@@ -164,7 +145,7 @@ void Bounces::match_starts(Side side, const Step& step) {
   auto old = earlier_.begin();
   for (std::size_t k = 0; k < starts_.size(); ++k) {
     Start& start = starts_[k];
-    const Touch& touch = touches_[k];
+    const LossyTouch& touch = touches_[k];
     start.nodes = whole_nodes(*sample_of(start));
     while (old != earlier_.end() && old->order() < start.order()) ++old;
     if (old != earlier_.end() && old->order() == start.order()) {
@@ -182,7 +163,7 @@ bool Bounces::damp(Side side, const Step& step, ContactLosses& losses) {
   bool changed = false;
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const std::size_t place = side == Side::before ? k : touches_.size() - 1 - k;
-    const Touch& t = touches_[place];
+    const LossyTouch& t = touches_[place];
     if (t.mobility == 0.0) continue;
     const Start& start = starts_[place];
     const double rate = t.rate(step.v);
@@ -209,20 +190,19 @@ bool Bounces::damp(Side side, const Step& step, ContactLosses& losses) {
   return changed;
 }
 
-double Bounces::factor(std::uint32_t sample, std::uint32_t obstacle, const ContactLaw& law, double rate) const {
-  const double loss = obstacle == body ? loss_of_bodies_[&law - bodies_->laws().data()] : loss_[obstacle];
+double Bounces::factor(const Touch& touch, double rate) const {
+  const double loss = loss_of(touch);
   if (loss == 0.0) return 1.0;
-  const Start named{.sample = sample, .obstacle = obstacle};
+  const Start named{.sample = touch.sample, .obstacle = touch.obstacle};
   const auto start = std::ranges::lower_bound(starts_, named.order(), {}, &Start::order);
   const bool is_known = start != starts_.end() && start->order() == named.order();
-  const Start* const found = is_known ? &*start : passed_on(starts_, sample, obstacle);
+  const Start* const found = is_known ? &*start : passed_on(starts_, touch.sample, touch.obstacle);
   const double first = found != nullptr ? std::max(found->rate, std::abs(rate)) : std::abs(rate);
   return first > 0.0 ? std::max(0.0, 1.0 + loss * (rate / first)) : 1.0;
 }
 
-void Bounces::change_part(ObstacleContact* obstacles, BodyContact* bodies, std::span<const std::uint32_t> vertices) {
-  obstacles_ = obstacles;
-  bodies_ = bodies;
+void Bounces::change_part(const Contacts& contacts, std::span<const std::uint32_t> vertices) {
+  contacts_ = contacts;
   vertices_ = vertices;
 }
 

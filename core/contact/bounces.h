@@ -5,14 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <tuple>
 #include <vector>
 
-#include "core/contact/body_contact.h"
-#include "core/contact/contact_site.h"
-#include "core/contact/obstacle_contact.h"
+#include "core/contact/contacts.h"
 
 namespace dartboard {
 
@@ -44,17 +41,12 @@ struct ContactLosses {
 /// within it.
 class Bounces {
  public:
-  /// In place of the number of an obstacle, for contact between bodies.
-  static constexpr std::uint32_t body = std::numeric_limits<std::uint32_t>::max();
-
-  /// pre  the terms live as long as this; either may be null
-  Bounces(ObstacleContact* obstacles, BodyContact* bodies);
+  explicit Bounces(const Contacts& contacts);
 
   struct Step {
-    double time = 0.0;           // [s] of its beginning or end, where obstacles have been put
-    double h = 0.0;              // [s]
-    bool near_obstacles = true;  // false: no sample is inside an obstacle
-    bool near_bodies = true;     // nor inside a body
+    double time = 0.0;  // [s] of its beginning or end, where obstacles have been put
+    double h = 0.0;     // [s]
+    Contacts near;      // those with losses; without a term of which no sample is inside anything
     std::span<const double> inverse_mass;
     const HeldVertices& held;
     std::span<const Eigen::Vector3d> x;
@@ -67,12 +59,12 @@ class Bounces {
   /// In place of `after`, if the step was not taken.
   void take_back() { starts_ = starts_before_; }
 
-  /// The factor of the force of a sample in an obstacle, or in a `body`, at a rate of depth [m/s].
-  double factor(std::uint32_t sample, std::uint32_t obstacle, const ContactLaw& law, double rate) const;
+  /// The factor of the force of a contact at a rate of depth [m/s].
+  double factor(const Touch& touch, double rate) const;
 
   /// Continue with the contact of another part of the body, whose vertices have these numbers in the whole; empty: the
   /// whole. Contacts outside of the part are forgotten.
-  void change_part(ObstacleContact* obstacles, BodyContact* bodies, std::span<const std::uint32_t> vertices);
+  void change_part(const Contacts& contacts, std::span<const std::uint32_t> vertices);
 
   /// pre  between steps
   template <class Archive>
@@ -89,26 +81,25 @@ class Bounces {
     double rate = 0.0;   // [m/s] the first
     double depth = 0.0;  // [m] at the beginning of the step; 0: it came in during the step
 
-    std::tuple<bool, std::uint32_t, std::uint32_t> order() const { return {obstacle == body, sample, obstacle}; }
+    bool is_of_bodies() const { return obstacle == Touch::body; }
+    std::tuple<bool, std::uint32_t, std::uint32_t> order() const { return {is_of_bodies(), sample, obstacle}; }
     template <class Archive>
     void state(Archive& archive) {
       archive(nodes, sample, obstacle, rate, depth);
     }
   };
-  struct Touch {
+  /// One with losses.
+  struct LossyTouch : Touch {
     ContactSite site{};
-    Eigen::Vector3d normal{0, 0, 0};
-    const ContactLaw* law = nullptr;
-    double loss = 0.0, area = 0.0, depth = 0.0, mobility = 0.0;
+    double loss = 0.0, mobility = 0.0;
     double carried = 0.0;  // [m/s] of the obstacle along the normal
     double rate(std::span<const Eigen::Vector3d> v) const { return carried - site.difference(v).dot(normal); }
   };
   enum class Side : std::uint8_t { before, after };
 
-  bool has_losses() const;
+  double loss_of(const Touch& touch) const;
   void find_touches(const Step& step);
-  void add(Touch touch, std::uint32_t sample, std::uint32_t obstacle, const Step& step);
-  double first_rate(const Touch& touch, Side side, const Step& step) const;
+  double first_rate(const LossyTouch& touch, Side side, const Step& step) const;
   const Start* passed_on(const std::vector<Start>& among, std::uint32_t sample, std::uint32_t obstacle) const;
   void match_starts(Side side, const Step& step);
   bool damp(Side side, const Step& step, ContactLosses& losses);
@@ -116,13 +107,12 @@ class Bounces {
   std::array<std::uint32_t, 4> whole_nodes(const SkinSample& sample) const;
   const SkinSample* sample_of(const Start& start) const;
 
-  ObstacleContact* obstacles_;
-  BodyContact* bodies_;
+  Contacts contacts_;
   std::span<const std::uint32_t> vertices_;
   std::vector<double> loss_;            // by obstacle
   std::vector<double> loss_of_bodies_;  // by law
   // One for each touch: first with obstacles, then with bodies, each in the order of samples.
-  std::vector<Touch> touches_;
+  std::vector<LossyTouch> touches_;
   std::vector<Start> starts_, starts_before_, earlier_;
   std::vector<Eigen::Vector3d> v_before_;  // [m/s] as the step begins
 };

@@ -2,6 +2,7 @@
 // The losses by contact around each step: speed lost in a bounce, and friction.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -10,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/contact/body_contact.h"
 #include "core/contact/bounces.h"
-#include "core/contact/contact_site.h"
-#include "core/contact/obstacle_contact.h"
+#include "core/contact/box_around.h"
+#include "core/contact/contacts.h"
+#include "core/contact/touch.h"
 
 namespace dartboard {
 
@@ -49,10 +50,7 @@ class ContactImpulses {
   using Accelerations = std::function<void(std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v,
                                            std::span<Eigen::Vector3d> a)>;
 
-  /// pre  the terms live as long as this
-  explicit ContactImpulses(ObstacleContact& contact) : ContactImpulses(&contact, nullptr) {}
-  /// For both terms, or for one: the other is null.
-  ContactImpulses(ObstacleContact* obstacles, BodyContact* bodies);
+  explicit ContactImpulses(const Contacts& contacts) : contacts_(contacts), bounces_(contacts) {}
 
   /// To be called before a step from `time` [s] of length h [s]. True if the integrator has to be restarted:
   /// velocities, obstacles or friction forces have changed. `end` or `take_back` comes next.
@@ -77,48 +75,54 @@ class ContactImpulses {
   /// before `begin`. The caller restores the velocities; obstacles are not moved.
   void take_back();
 
-  /// Continue with the contact of another part of the body, or of the whole; `moved_to` has the number there of each
-  /// sample here, VertexSubset::none of those left out, and `vertices` the numbers of the part's vertices in the whole,
-  /// or nothing for the whole. The starts of friction and of bounces are kept.
+  /// By sample, with obstacles and between bodies: its number after a change, VertexSubset::none of those left out.
+  using MovedSamples = std::array<std::vector<std::uint32_t>, 2>;
+  /// Continue with the contact of another part of the body, or of the whole; `vertices` are the numbers of the part's
+  /// vertices in the whole, or nothing for the whole. The starts of friction and of bounces are kept.
   /// pre  between steps; the laws are the same; `vertices` stays as it is until the next call
-  void change_part(ObstacleContact* obstacles, BodyContact* bodies, std::span<const std::uint32_t> moved_to,
-                   std::span<const std::uint32_t> moved_to_of_bodies, std::span<const std::uint32_t> vertices);
+  void change_part(const Contacts& contacts, const MovedSamples& moved_to, std::span<const std::uint32_t> vertices);
 
   const ContactLosses& losses() const { return losses_; }
   /// pre  between steps
   template <class Archive>
   void state(Archive& archive) {
-    archive(losses_, bounces_, before_);
-    if (bodies_ != nullptr) archive(bodies_before_);
+    archive(losses_, bounces_, friction_);
   }
   std::size_t bytes() const;
 
  private:
-  bool has_friction() const;
+  /// What friction acts against at a contact.
+  struct Sliding {
+    Eigen::Vector3d normal;
+    Eigen::Vector3d carried;  // [m] the way of the obstacle in the step
+    double most;              // [N] the largest friction allowed
+  };
+
   Bounces::Step bounce_step(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
                             std::span<const Eigen::Vector3d> x, std::span<Eigen::Vector3d> v);
-  void find_rubbing_samples(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
-                            std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);
-  void find_rubbing_bodies(double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
-                           std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);
+  Contacts rubbing_after(double t, std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);
+  void find_rubbing(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
+                    std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);
+  Eigen::Vector3d force_before(const Touch& touch) const;
+  double depth_at_beginning(const Touch& touch, std::span<const Eigen::Vector3d> x) const;
   bool set_friction(double time, double h, std::span<const double> inverse_mass, const HeldVertices& fixed,
                     std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v,
                     const Accelerations& accelerations);
+  void clear_friction();
   bool place_at(double time, std::span<const Eigen::Vector3d> x);
 
   double room_at(std::span<const Eigen::Vector3d> x);
 
   std::optional<BoxAround> clear_;  // around the present places, if no sample is inside an obstacle
   std::optional<double> room_;      // [m] between bodies, at the present places
-  ObstacleContact* obstacles_;
-  BodyContact* bodies_;
+  Contacts contacts_;
   Bounces bounces_;
   ContactLosses losses_, losses_at_begin_;
-  std::vector<double> most_;  // [N] the largest friction allowed, by frozen force: of obstacles, then of bodies
-  std::vector<Eigen::Vector3d> acceleration_, normal_;
-  // Friction of the step before, where sweeps begin: a guess, no worse than zero even after the samples have changed.
-  std::vector<ContactFriction> before_, now_;
-  std::vector<BodyFriction> bodies_before_, bodies_now_;
+  // Friction of this step, or of the last one, where the sweeps of the next begin: a guess, no worse than zero even
+  // after the samples have changed. First with obstacles, then between bodies, each in the order of samples.
+  std::vector<ContactFriction> friction_, earlier_;
+  std::vector<Sliding> sliding_;  // of each
+  std::vector<Eigen::Vector3d> acceleration_;
   std::vector<std::pair<std::uint32_t, double>> depth_;  // [m] of samples in bodies, at the beginning of the step
 };
 

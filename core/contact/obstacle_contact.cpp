@@ -20,12 +20,6 @@ Vector3d mean_of(const SkinSample& sample, std::span<const Vector3d> of) {
   return mean_of(sample, [of](std::uint32_t i) -> const Vector3d& { return of[i]; });
 }
 
-Vector3d place_on_the_way(const SkinSample& sample, const StagePlaces& at) {
-  Vector3d place = mean_of(sample, at.x);
-  if (at.w.empty()) return place;
-  return place + at.t * mean_of(sample, at.w);
-}
-
 /// Add an equal share of the force to each node.
 void share_force(const SkinSample& sample, const Vector3d& f, std::span<Vector3d> force) {
   if (sample.count == 1) {
@@ -277,7 +271,11 @@ EnergyChange ObstacleContact::work_of_placing(double time, std::span<const Vecto
   return {sum.value(), sizes};
 }
 
-Vector3d ObstacleContact::place_of(const SkinSample& sample, std::span<const Vector3d> x) { return mean_of(sample, x); }
+Vector3d ObstacleContact::place_of(const SkinSample& sample, const StagePlaces& at) {
+  Vector3d place = mean_of(sample, at.x);
+  if (at.w.empty()) return place;
+  return place + at.t * mean_of(sample, at.w);
+}
 
 bool ObstacleContact::find_alone(std::uint32_t o, const Vector3d& y, Penetration& found) const {
   const Vector3d place = y - moved_[o];
@@ -297,9 +295,9 @@ Penetration ObstacleContact::penetration_in(std::uint32_t o, const Vector3d& y) 
   const std::uint32_t j = now_.joined_in[o];
   if (j == Arrangement::hidden) return {};
   Penetration found;
-  std::uint32_t with = ContactState::none;
+  std::uint32_t with = Arrangement::alone;
   if (j != Arrangement::alone) find_joined(j, y, found, with);
-  return with != ContactState::none ? found : penetration(now_.shape[o], y - moved_[o]);
+  return with != Arrangement::alone ? found : penetration(now_.shape[o], y - moved_[o]);
 }
 
 bool ObstacleContact::find_penetration(std::uint32_t o, const Vector3d& y, Penetration& found) const {
@@ -307,7 +305,7 @@ bool ObstacleContact::find_penetration(std::uint32_t o, const Vector3d& y, Penet
   if (j == Arrangement::alone) return find_alone(o, y, found);
   if (j == Arrangement::hidden) return false;
   Penetration joint;
-  std::uint32_t with = ContactState::none;
+  std::uint32_t with = Arrangement::alone;
   find_joined(j, y, joint, with);
   if (with != o) return false;
   found = joint;
@@ -356,42 +354,6 @@ void ObstacleContact::for_each_contact(const Vector3d& y, F&& f) const {
   for_each_penetration(y, [&](std::uint32_t o, const Penetration& found) { f(laws_[o], found, o); });
 }
 
-std::span<const ContactFriction> ObstacleContact::friction_at(std::size_t piece) const {
-  const auto by_sample = [](const ContactFriction& f) { return f.sample; };
-  const auto first = std::ranges::lower_bound(frozen_, piece, {}, by_sample),
-             last = std::ranges::upper_bound(frozen_, piece, {}, by_sample);
-  return {first, last};
-}
-
-ContactState ObstacleContact::state_at(std::span<const Vector3d> x) const {
-  ContactState state;
-  state.force_on.assign(obstacles_.size(), Vector3d(0, 0, 0));
-  CompensatedSum energy;
-  for_each_touch(x, [&](std::uint32_t k, std::uint32_t o, const Penetration& in) {
-    const double area = samples_[k].area;
-    const ContactLaw& law = laws_[o];
-    ++state.contacts;
-    state.area += area;
-    energy.add(law.energy(area, in.depth));
-    state.force_on[o] -= law.force(area, in.depth) * in.normal;
-    state.deepest_share = std::max(state.deepest_share, in.depth / law.depth);
-    if (in.depth <= state.deepest) return;
-    state.deepest = in.depth;
-    state.sample = k;
-    state.obstacle = o;
-  });
-  state.energy = energy.value();
-  return state;
-}
-
-void ObstacleContact::vertex_depths(std::span<const Vector3d> x, std::span<double> depth) const {
-  std::ranges::fill(depth, 0.0);
-  for_each_touch(x, [&](std::uint32_t k, std::uint32_t, const Penetration& in) {
-    const SkinSample& s = samples_[k];
-    if (s.count == 1) depth[s.nodes[0]] = std::max(depth[s.nodes[0]], in.depth);
-  });
-}
-
 double ObstacleContact::frequency_squared(std::span<const double> inverse_mass, double share_of_depth) const {
   std::vector<double> row(inverse_mass.size(), 0.0);
   for (const SkinSample& s : samples_)
@@ -407,12 +369,12 @@ double ObstacleContact::largest_stiffness(double area, double share_of_depth) co
 }
 
 void ObstacleContact::add_forces(const StagePlaces& at, std::span<Vector3d> force) const {
-  if (frozen_.empty() && is_clear(at.x, at.w, at.t)) return;
+  if (frozen_.rows.empty() && is_clear(at.x, at.w, at.t)) return;
   for (const SkinSample& s : samples_)
-    for_each_contact(place_on_the_way(s, at), [&](const ContactLaw& law, const Penetration& in, std::uint32_t) {
+    for_each_contact(place_of(s, at), [&](const ContactLaw& law, const Penetration& in, std::uint32_t) {
       share_force(s, law.force(s.area, in.depth) * in.normal, force);
     });
-  for (const ContactFriction& f : frozen_) share_force(samples_[f.sample], f.force, force);
+  frozen_.add_forces(force);
 }
 
 void ObstacleContact::add_discrete_forces(const StagePlaces& at, std::span<Vector3d> force) const {
@@ -428,7 +390,7 @@ void ObstacleContact::add_discrete_forces(const StagePlaces& at, std::span<Vecto
       if (!f.isZero(0.0)) share_force(s, f, force);
     }
   }
-  for (const ContactFriction& f : frozen_) share_force(samples_[f.sample], f.force, force);
+  frozen_.add_forces(force);
 }
 
 void ObstacleContact::add_force_sizes(const StagePlaces& at, std::span<double> size) const {
@@ -436,7 +398,7 @@ void ObstacleContact::add_force_sizes(const StagePlaces& at, std::span<double> s
     for (const std::uint32_t i : s.corners()) size[i] += force / static_cast<double>(s.count);
   };
   for (const SkinSample& s : samples_) {
-    const Vector3d y = place_on_the_way(s, at);
+    const Vector3d y = place_of(s, at);
     for_each_contact(y, [&](const ContactLaw& law, const Penetration& in, std::uint32_t o) {
       // the depth is a difference of coordinates
       double coordinates = y.norm() + origin_of(obstacles_[o].shape).norm() + moved_[o].norm();
@@ -447,7 +409,7 @@ void ObstacleContact::add_force_sizes(const StagePlaces& at, std::span<double> s
       share(s, law.force(s.area, in.depth) + law.stiffness(s.area, in.depth) * coordinates);
     });
   }
-  for (const ContactFriction& f : frozen_) share(samples_[f.sample], f.force.norm());
+  frozen_.add_force_sizes(size);
 }
 
 double ObstacleContact::energy(std::span<const Vector3d> x, std::size_t first, std::size_t stride) const {
@@ -456,26 +418,21 @@ double ObstacleContact::energy(std::span<const Vector3d> x, std::size_t first, s
     for_each_contact(mean_of(samples_[k], x), [&](const ContactLaw& law, const Penetration& in, std::uint32_t) {
       sum.add(law.energy(samples_[k].area, in.depth));
     });
-  for (const ContactFriction& f : frozen_)
-    if (f.sample >= first && (f.sample - first) % stride == 0)
-      sum.add(-f.force.dot(mean_of(samples_[f.sample], x) - f.from));
+  frozen_.add_energy(x, first, stride, sum);
   return sum.value();
 }
 
 EnergyChange ObstacleContact::energy_change(const StagePlaces& at, std::span<const Vector3d> step, double scale) const {
   EnergyChange sum;
   for (const SkinSample& s : samples_) {
-    const Vector3d from = place_on_the_way(s, at), way = scale * mean_of(s, step);
+    const Vector3d from = place_of(s, at), way = scale * mean_of(s, step);
     for (std::uint32_t o = 0; o < obstacles_.size(); ++o)
       if (now_.joined_in[o] == Arrangement::alone)
         sum += change_on_way(laws_[o], s.area, now_.shape[o], from - moved_[o], way);
     for (const JoinedBlocks& joined : now_.joined)
       sum += change_on_way(joined, s.area, from - moved_[joined.obstacle[0]], way);
   }
-  for (const ContactFriction& f : frozen_) {
-    const Vector3d way = scale * mean_of(samples_[f.sample], step);
-    sum += {-f.force.dot(way), f.force.norm() * way.norm()};
-  }
+  frozen_.add_change(step, scale, sum);
   return sum;
 }
 
@@ -488,7 +445,8 @@ double ObstacleContact::power(std::span<const std::uint32_t> pieces, std::span<c
     for_each_contact(mean_of(s, x), [&](const ContactLaw& law, const Penetration& in, std::uint32_t) {
       sum += law.force(s.area, in.depth) * in.normal.dot(speed);
     });
-    for (const ContactFriction& f : friction_at(k)) sum += f.force.dot(speed);
+    const auto first = std::ranges::lower_bound(frozen_.rows, k, {}, &ContactFriction::sample);
+    for (auto f = first; f != frozen_.rows.end() && f->sample == k; ++f) sum += f->force.dot(speed);
   }
   return sum;
 }
@@ -497,7 +455,7 @@ void ObstacleContact::for_each_tangent(const StagePlaces& at, Compression compre
                                        const VisitTangent& visit) const {
   for (const SkinSample& s : samples_) {
     Matrix3d sum = Matrix3d::Zero();
-    for_each_contact(place_on_the_way(s, at), [&](const ContactLaw& law, const Penetration& in, std::uint32_t) {
+    for_each_contact(place_of(s, at), [&](const ContactLaw& law, const Penetration& in, std::uint32_t) {
       sum += law.stiffness(s.area, in.depth) * (in.normal * in.normal.transpose());
       // a ball gives way to what slides off it, an edge between blocks does not
       if (compression == Compression::exact || in.curvature.trace() < 0.0)
@@ -519,7 +477,7 @@ std::size_t ObstacleContact::Arrangement::bytes() const {
 
 std::size_t ObstacleContact::bytes() const {
   return laws_.capacity() * sizeof(ContactLaw) + obstacles_.capacity() * sizeof(Obstacle) +
-         moved_.capacity() * sizeof(Vector3d) + frozen_.capacity() * sizeof(ContactFriction) + now_.bytes();
+         moved_.capacity() * sizeof(Vector3d) + frozen_.rows.capacity() * sizeof(ContactFriction) + now_.bytes();
 }
 
 }  // namespace dartboard

@@ -12,35 +12,11 @@
 #include "core/contact/contact_law.h"
 #include "core/contact/obstacle.h"
 #include "core/contact/skin_samples.h"
+#include "core/contact/touch.h"
 #include "core/contact/way_inside.h"
 #include "core/forces/force_term.h"
 
 namespace dartboard {
-
-/// A sample inside an obstacle, and the constant friction force on it.
-struct ContactFriction {
-  std::uint32_t sample = 0, obstacle = 0;
-  Eigen::Vector3d force{0, 0, 0};  // [N] on the body
-  Eigen::Vector3d from{0, 0, 0};   // [m] the place of the sample before
-
-  template <class Archive>
-  void state(Archive& archive) {
-    archive(sample, obstacle, force, from);
-  }
-};
-
-/// What a run reports of its contacts.
-struct ContactState {
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-  std::size_t contacts = 0;                      // pairs of a sample and an obstacle that it is inside
-  double area = 0.0;                             // [m^2] that these stand for
-  double energy = 0.0;                           // [J]
-  double deepest = 0.0;                          // [m]; 0 without a contact
-  std::uint32_t sample = none, obstacle = none;  // the deepest, the first of equal ones
-  double deepest_share = 0.0;                    // the largest depth over the `depth` of its law
-  std::vector<Eigen::Vector3d> force_on;         // [N] on each obstacle
-};
 
 /// A zero-thickness penalty: each sample that is inside an obstacle has the energy of the obstacle's law at its depth.
 /// All obstacles act on a sample inside them, not the deepest alone, so that the energy is a sum of smooth ones and
@@ -93,7 +69,7 @@ class ObstacleContact final : public ForceTerm {
   /// Its sizes are 0 if they pass no sample on the way.
   EnergyChange work_of_placing(double time, std::span<const Eigen::Vector3d> x) const;
   /// The place of a sample [m].
-  static Eigen::Vector3d place_of(const SkinSample& sample, std::span<const Eigen::Vector3d> x);
+  static Eigen::Vector3d place_of(const SkinSample& sample, const StagePlaces& at);
   /// The penetration of the place y into an obstacle at its present place, or into the blocks that it is joined with.
   Penetration penetration_in(std::uint32_t obstacle, const Eigen::Vector3d& y) const;
   /// The same; false, and `found` is not set, if y is not in contact with it: a few comparisons.
@@ -112,7 +88,7 @@ class ObstacleContact final : public ForceTerm {
         if (find_alone(o, y, found)) visit(o, found);
       return;
     }
-    std::uint32_t joint_with = ContactState::none;  // y is in one of the joined solids at most
+    std::uint32_t joint_with = Arrangement::alone;  // y is in one of the joined solids at most
     for (std::uint32_t o = 0; o < obstacles_.size(); ++o) {
       const std::uint32_t j = now_.joined_in[o];
       if (j == Arrangement::alone) {
@@ -126,9 +102,9 @@ class ObstacleContact final : public ForceTerm {
 
   /// Calls visit(sample, obstacle, penetration) for each sample inside an obstacle, in this order.
   template <class F>
-  void for_each_touch(std::span<const Eigen::Vector3d> x, const F& visit) const {
+  void for_each_touch(const StagePlaces& at, const F& visit) const {
     for (std::uint32_t k = 0; k < samples_.size(); ++k)
-      for_each_penetration(place_of(samples_[k], x),
+      for_each_penetration(place_of(samples_[k], at),
                            [&](std::uint32_t o, const Penetration& found) { visit(k, o, found); });
   }
 
@@ -141,10 +117,6 @@ class ObstacleContact final : public ForceTerm {
   std::optional<BoxAround> clear_box(std::span<const Eigen::Vector3d> x) const;
   bool is_clear_after(const BoxAround& box, std::span<const Eigen::Vector3d> v, double t) const;
 
-  ContactState state_at(std::span<const Eigen::Vector3d> x) const;
-  /// By vertex: the largest depth [m] of a sample at the vertex, 0 outside.
-  void vertex_depths(std::span<const Eigen::Vector3d> x, std::span<double> depth) const;
-
   /// An upper bound of the square of the frequencies [1/s^2] of contact alone, if every sample were at this share of
   /// the depth of its law in the stiffest of the obstacles: with K the sum of k w w' n n', rows of M^-1 K add up to
   /// 1/m_i sum of k_s / n_s over the samples at i. Together with a body whose highest frequency is omega, no frequency
@@ -152,11 +124,9 @@ class ObstacleContact final : public ForceTerm {
   /// units   inverse_mass [1/kg], 0 where fixed
   double frequency_squared(std::span<const double> inverse_mass, double share_of_depth) const;
 
-  /// The friction forces during a step, in addition to those of depth: constant, with the energy - F . (y - from) in
-  /// all functions below, so that every integrator treats them as any other force. ContactImpulses sets them.
-  std::span<const ContactFriction> frozen_friction() const { return frozen_; }
-  /// pre  the forces set are in the order of samples
-  std::vector<ContactFriction>& frozen_friction_to_set() { return frozen_; }
+  /// The friction during a step, in all functions below.
+  std::span<const ContactFriction> frozen_friction() const { return frozen_.rows; }
+  std::vector<ContactFriction>& frozen_friction_to_set() { return frozen_.rows; }
 
   std::string_view pieces_name() const override { return "contact samples"; }
   std::size_t size() const override { return samples_.size(); }
@@ -208,7 +178,6 @@ class ObstacleContact final : public ForceTerm {
   /// Calls f(law, penetration, obstacle) for each obstacle that contains the place y of a sample.
   template <class F>
   void for_each_contact(const Eigen::Vector3d& y, F&& f) const;
-  std::span<const ContactFriction> friction_at(std::size_t piece) const;
   bool passes_call() const;
   bool is_clear(const BoxAround& box, double size) const;
   /// The largest over the laws, each at this share of its depth [N/m].
@@ -220,7 +189,7 @@ class ObstacleContact final : public ForceTerm {
   std::vector<Eigen::Vector3d> moved_;  // [m] by obstacle
   Arrangement now_;
   bool may_cover_ = false;  // there is a block, and another or a half-space
-  std::vector<ContactFriction> frozen_;
+  FrozenFriction frozen_;
   bool friction_ = false, damping_ = false;
   mutable int calls_to_pass_ = 0;  // of `is_clear`
 };

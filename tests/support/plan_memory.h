@@ -190,12 +190,13 @@ inline std::size_t predicted_bytes(const SceneFile& scene, const Problem& proble
     case Part::force: return predicted_force_bytes(scene, problem, plan, item);
     // laws, obstacles, their displacement and loss; samples; velocities to restore, and as a step begins
     case Part::contact: {
-      const std::size_t samples = arrays.body().contact()->samples().size(), faces = dimension == 3 ? n.faces : n.cells;
+      const std::size_t samples = arrays.body().contacts().obstacles->samples().size(),
+                        faces = dimension == 3 ? n.faces : n.cells;
       // places and shapes twice: as they are, and as they are joined
       return scene.obstacles.size() *
                  (sizeof(ContactLaw) + sizeof(Obstacle) + sizeof(ObstacleShape) + 2 * vector + number + real) +
              samples * sizeof(SkinSample) + (plan.needs.solver ? n.vertices * vector : 0) +
-             (arrays.body().contact()->has_damping() ? n.vertices * vector : 0) +
+             (arrays.body().contacts().obstacles->has_damping() ? n.vertices * vector : 0) +
              (plan.needs.body.topology_changes ? (samples + n.vertices + faces) * number : 0);
     }
     case Part::damping: return n.edges * sizeof(Spring::damping);

@@ -39,7 +39,7 @@ void look_at_overlaps(const SceneFile& scene, const std::vector<std::size_t>& fi
     });
   };
   for (const JudgedOverlap& one :
-       judged_overlaps(*simulation.body().body_contact(), frame.mesh.points, cells, may_touch)) {
+       judged_overlaps(*simulation.body().contacts().bodies, frame.mesh.points, cells, may_touch)) {
     run.by_depth.add(one.overlap.depth / run.allowed, one.felt);
     run.deepest = std::max(run.deepest, one.overlap.depth);
   }

@@ -284,7 +284,7 @@ class Watched {
 /// Of the ways out of what is below for places of the body: the largest part across the vertical, over the depth of the
 /// law.
 double largest_way_sideways(const Simulation& simulation, const Watched& body) {
-  const BodyContact& contact = *simulation.body().body_contact();
+  const BodyContact& contact = *simulation.body().contacts().bodies;
   double largest = 0.0;
   for (const BodyTouch& touch : contact.touching({simulation.body().vertices().position}))
     if (body.has(contact.samples()[touch.sample].nodes[0]))

@@ -79,7 +79,7 @@ HertzResult press_ball(const HertzCase& one) {
     result.ended = integrator->step(body->system(), body->motion(), long_step).ok() && result.ended;
   for (const Vector3d& v : body->vertices().velocity)
     result.moved = max_or_nan(result.moved, long_step * v.norm() / way);
-  const ContactState state = body->contact()->state_at(body->vertices().position);
+  const ContactState state = body->contacts().state_at(body->vertices().position);
   result.contacts = state.contacts;
   result.force = 4.0 * state.force_on[0].z();
   result.depth = state.deepest / way;

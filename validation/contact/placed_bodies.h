@@ -21,7 +21,7 @@ class PlacedBodies {
  public:
   PlacedBodies(const Mesh& first, const Mesh& second, std::uint64_t seed);
 
-  const BodyContact& contact() const { return *body_->body_contact(); }
+  const BodyContact& contact() const { return *body_->contacts().bodies; }
   /// The present places of the vertices of both.
   std::span<const Eigen::Vector3d> x() const { return x_; }
   std::span<const CellCorners> cells() const { return cells_; }

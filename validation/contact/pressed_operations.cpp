@@ -11,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/contact/contact_impulses.h"
-#include "core/contact/obstacle_contact.h"
+#include "core/contact/contacts.h"
 #include "core/elements/tetrahedra.h"
 #include "core/mechanics/adapt.h"
 #include "core/mechanics/cell_nodes.h"
@@ -22,8 +21,8 @@
 #include "core/operations/tear_fan.h"
 #include "core/plain/nan_maximum.h"
 #include "core/plain/random.h"
+#include "core/scene/run/scene_contact.h"
 #include "core/time/integrators.h"
-#include "core/time/system/accelerations.h"
 #include "core/time/system/energy.h"
 #include "core/topology/check.h"
 #include "core/views/element_nodes_view.h"
@@ -119,10 +118,11 @@ class PressedStack {
     for (std::uint32_t a = 0; a < first_cell_.size(); ++a)
       for (std::uint32_t b = a; b < first_cell_.size(); ++b) pairs.push_back({a, b, weak});
     bodies_ = std::make_unique<BodyContact>(skin_.samples(), solids_.solids(), pairs);
-    impulses_ = std::make_unique<ContactImpulses>(obstacles_.get(), bodies_.get());
+    contact_ = std::make_unique<SceneContact>(Contacts(obstacles_.get(), bodies_.get()), false);
     terms_ = {tetrahedra_.get(), obstacles_.get(), bodies_.get()};
     whole_ = body_.cell_dart.size();
     altitude_ = bodies_->least_altitude(body_.vertices.position);
+    contact_->system_changed(system(), body_.vertices.position);
     ++found_.stacks;
     now_ = sums();
     most_energy_ = energy_above_floor(now_);
@@ -135,19 +135,12 @@ class PressedStack {
 
   /// Some steps; false if one fails.
   bool move(std::size_t count) {
-    const Terms active = terms_of(system());
-    const auto accelerate = [&](std::span<const Vector3d> x, std::span<const Vector3d> v, std::span<Vector3d> a) {
-      accelerations(system(), active, x, v, a);
-    };
     const Sums before = now_;
-    const ContactLosses lost = impulses_->losses();
+    const ContactLosses lost = contact_->losses();
     for (std::size_t k = 0; k < count; ++k, ++steps_, ++found_.steps) {
       const double time = static_cast<double>(steps_) * time_step;
-      const SpringSystem all = system();
       const Motion motion{body_.vertices.position, body_.vertices.velocity};
-      if (impulses_->begin(time, time_step, all.inverse_mass, {}, motion.x, motion.v, accelerate)) verlet_->restart();
-      if (!verlet_->step(all, motion, time_step).ok()) return false;
-      if (impulses_->end(time, time_step, all.inverse_mass, {}, motion.x, motion.v)) verlet_->restart();
+      if (!contact_->step(*verlet_, system(), motion, time, time_step).ok()) return false;
     }
     now_ = sums();
     account_for_steps(before, lost, count);
@@ -262,7 +255,7 @@ class PressedStack {
   static double energy_above_floor(const Sums& s) { return s.kinetic + s.elastic + s.contact; }
 
   void account_for_steps(const Sums& before, const ContactLosses& lost, std::size_t count) {
-    const ContactLosses& losses = impulses_->losses();
+    const ContactLosses& losses = contact_->losses();
     unaccounted_ += (now_.energy() - before.energy()) + (losses.damped - lost.damped) + (losses.rubbed - lost.rubbed) -
                     (losses.supplied - lost.supplied);
     most_energy_ = std::max(most_energy_, energy_above_floor(now_));
@@ -307,6 +300,7 @@ class PressedStack {
       solids_.rebuild(body_);
     }
     verlet_->restart();
+    contact_->system_changed(system(), body_.vertices.position);
     if (plan_.meddles) plan_.meddles(found_.operations(), body_.vertices);
     return changed;
   }
@@ -348,22 +342,14 @@ class PressedStack {
   }
 
   std::vector<ContactPart> contact_parts() const {
-    const std::vector<Vector3d>& x = body_.vertices.position;
     std::vector<ContactPart> parts;
-    obstacles_->for_each_touch(x, [&](std::uint32_t k, std::uint32_t obstacle, const Penetration& in) {
-      const SkinSample& sample = skin_.samples()[k];
-      ContactPart& part = parts.emplace_back();
-      part.sample = sample.nodes;
-      part.add(sample.corners());
-      part.energy = obstacles_->laws()[obstacle].energy(sample.area, in.depth);
-    });
-    for (const BodyTouch& touch : bodies_->touching({x})) {
+    Contacts(obstacles_.get(), bodies_.get()).for_each_touch({body_.vertices.position}, [&](const Touch& touch) {
       ContactPart& part = parts.emplace_back();
       part.sample = skin_.samples()[touch.sample].nodes;
       part.add(skin_.samples()[touch.sample].corners());
-      part.add(solids_.solids().tetrahedra()[touch.tetrahedron].nodes);
-      part.energy = bodies_->laws()[touch.law].energy(touch.area, touch.depth);
-    }
+      if (touch.in_body != nullptr) part.add(solids_.solids().tetrahedra()[touch.in_body->tetrahedron].nodes);
+      part.energy = touch.law->energy(touch.area, touch.depth);
+    });
     return parts;
   }
 
@@ -402,7 +388,7 @@ class PressedStack {
   std::unique_ptr<ForceTerm> tetrahedra_;
   std::unique_ptr<ObstacleContact> obstacles_;
   std::unique_ptr<BodyContact> bodies_;
-  std::unique_ptr<ContactImpulses> impulses_;
+  std::unique_ptr<SceneContact> contact_;
   std::vector<const ForceTerm*> terms_;
   std::unique_ptr<Integrator> verlet_ = make_integrator("verlet");
   double altitude_ = 0.0;  // [m] the least of a cell at rest

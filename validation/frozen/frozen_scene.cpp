@@ -247,7 +247,7 @@ FrozenBody::FrozenBody(const FrozenScene& scene)
   for (std::size_t k = 0; k < body_->vertices().size() && !scene.initial_position.empty(); ++k)
     body_->motion().x[k] = scene.initial_position[body_->vertices().point[k]];
   if (scene.file.has_contact()) {
-    contact_ = std::make_unique<SceneContact>(body_->contact(), body_->body_contact(), false);
+    contact_ = std::make_unique<SceneContact>(body_->contacts(), false);
     contact_->start(body_->vertices().position, {}, {}, 0.0);
     look_at_contact();
   }
@@ -290,19 +290,16 @@ void FrozenBody::look_at_contact() {
 }
 
 StepResult FrozenBody::step(Integrator& integrator, const SpringSystem& system, double time, double h) {
-  const Motion motion = body_->motion();
   load(integrator, time, h);
-  if (contact_ && contact_->begin(time, h, system, motion)) integrator.motion_changed();
-  const StepResult result = integrator.step(system, motion, h);
-  if (contact_ && result.ok() && contact_->end(time, h, system, motion)) integrator.motion_changed();
-  return result;
+  return contact_ ? contact_->step(integrator, system, body_->motion(), time, h)
+                  : integrator.step(system, body_->motion(), h);
 }
 
 StableStep FrozenBody::limits() const {
   const SpringSystem system = body_->system();
   const StableStep limits = StableStepEstimate().refresh(system, body_->vertices().position);
   if (!contact_) return limits;
-  return with_contact(limits, contact_rate(system, body_->contact(), body_->body_contact(), scene_.contact_share));
+  return with_contact(limits, contact_rate(system, body_->contacts(), scene_.contact_share));
 }
 
 double FrozenBody::fastest_rate() const {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "benchmarks/checkout/source_folder.h"
+#include "benchmarks/harness/json_fields.h"
 #include "core/plain/error.h"
 #include "core/plain/random.h"
 #include "core/scene/file/scene_file.h"
@@ -183,14 +184,11 @@ ContactCounts count(const std::string& situation, const Simulation& simulation) 
   const SimulatedBody& body = simulation.body();
   const std::vector<Vector3d>& x = body.vertices().position;
   ContactCounts counts{.situation = situation, .tetrahedra = body.counts().cells};
-  if (const ObstacleContact* obstacles = body.contact()) {
-    counts.samples = obstacles->samples().size();
-    counts.contacts = obstacles->state_at(x).contacts;
-  }
-  if (const BodyContact* bodies = body.body_contact()) {
+  const Contacts contacts = body.contacts();
+  counts.samples = contacts.samples(contacts.bodies != nullptr).size();
+  counts.contacts = contacts.state_at(x).contacts;
+  if (const BodyContact* bodies = contacts.bodies) {
     const auto touching = bodies->touching({x});
-    counts.samples = bodies->samples().size();
-    counts.contacts += touching.size();
     counts.candidates = bodies->candidates().pair_count();
     BodyContact other(bodies->samples(), bodies->solids(), *bodies);
     other.set_margin(0.5);
@@ -316,7 +314,7 @@ void add_force_tasks(const Situation& situation, bool lists, std::vector<TimedTa
   add_task(": contact", true);
   add_task(": elements", false);
   if (!lists) return;
-  const BodyContact& contact = *s->simulation.body().body_contact();
+  const BodyContact& contact = *s->simulation.body().contacts().bodies;
   s->own = std::make_unique<BodyContact>(contact.samples(), contact.solids(), contact);
   tasks.push_back({situation.name + ": list", [] {},
                    [s] {
@@ -380,20 +378,7 @@ void measure_contact_costs(const ContactCostPlan& plan, const std::function<void
   run_rounds(tasks, fewer, sink);
 }
 
-void to_json(Json& json, const ContactCounts& c) {
-  json = {{"situation", c.situation},   {"tetrahedra", c.tetrahedra}, {"samples", c.samples},
-          {"candidates", c.candidates}, {"contacts", c.contacts},     {"evaluations", c.evaluations},
-          {"differing", c.differing},   {"unbalanced", c.unbalanced}};
-}
-void from_json(const Json& json, ContactCounts& c) {
-  json.at("situation").get_to(c.situation);
-  json.at("tetrahedra").get_to(c.tetrahedra);
-  json.at("samples").get_to(c.samples);
-  json.at("candidates").get_to(c.candidates);
-  json.at("contacts").get_to(c.contacts);
-  json.at("evaluations").get_to(c.evaluations);
-  json.at("differing").get_to(c.differing);
-  json.at("unbalanced").get_to(c.unbalanced);
-}
+DARTBOARD_JSON_FIELDS(ContactCounts, situation, tetrahedra, samples, candidates, contacts, evaluations, differing,
+                      unbalanced)
 
 }  // namespace dartboard

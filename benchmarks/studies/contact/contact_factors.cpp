@@ -18,21 +18,15 @@ namespace {
 constexpr double step_of_backward_euler = 0.002;  // [s]
 
 /// Every sample that is inside something, and what that is: an obstacle, or the way out of a body. In order.
-using TouchList = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+using TouchList = std::vector<std::pair<std::uint32_t, std::size_t>>;
 
 TouchList touches_of(const SimulatedBody& body) {
-  const auto& x = body.vertices().position;
+  const Contacts contacts = body.contacts();
+  const std::size_t obstacles = contacts.obstacles != nullptr ? contacts.obstacles->obstacles().size() : 0;
   TouchList touches;
-  std::uint32_t obstacle_count = 0;
-  if (const ObstacleContact* obstacles = body.contact()) {
-    obstacle_count = static_cast<std::uint32_t>(obstacles->obstacles().size());
-    obstacles->for_each_touch(x, [&touches](std::uint32_t sample, std::uint32_t obstacle, const Penetration&) {
-      touches.emplace_back(sample, obstacle);
-    });
-  }
-  if (const BodyContact* bodies = body.body_contact())
-    for (const BodyTouch& touch : bodies->touching({.x = x}))
-      touches.emplace_back(touch.sample, obstacle_count + touch.triangle);
+  contacts.for_each_touch({.x = body.vertices().position}, [&](const Touch& touch) {
+    touches.emplace_back(touch.sample, touch.in_body != nullptr ? obstacles + touch.in_body->triangle : touch.obstacle);
+  });
   std::ranges::sort(touches);
   return touches;
 }

@@ -7,8 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/body_contact.h"
-#include "core/contact/obstacle_contact.h"
+#include "core/contact/contacts.h"
 #include "core/scene/body/memory.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/forces/body_force.h"
@@ -36,8 +35,7 @@ class BodyForces {
   ForceTerms terms_but_contact(ForceTerms terms) const {
     return terms.first(terms.size() - (obstacles_ ? 1 : 0) - (bodies_ != nullptr ? 1 : 0));
   }
-  ObstacleContact* obstacles() const { return obstacles_.get(); }
-  BodyContact* bodies() const { return bodies_; }
+  Contacts contacts() const { return {obstacles_.get(), bodies_}; }
 
   /// Call f(force) for each of the kinds of core/scene/forces.
   template <class F>

@@ -226,11 +226,9 @@ MemoryReport BodyOfColumns::memory() const {
   if (cell_springs_)
     report.push_back({Part::cell_springs, bytes_of(springs_within_) + (of_elements ? 0 : bytes_of(solid_nodes_))});
   forces_.report(report);
-  const ObstacleContact* const obstacles = contact();
-  const BodyContact* const bodies = body_contact();
-  if (obstacles != nullptr || bodies != nullptr)
-    report.push_back({Part::contact, bytes_of(samples_) + (obstacles != nullptr ? obstacles->bytes() : 0) +
-                                         (bodies != nullptr ? skin_solids_.bytes() + bodies->bytes() : 0)});
+  if (const Contacts contacts = this->contacts(); contacts.any())
+    report.push_back({Part::contact,
+                      bytes_of(samples_) + contacts.bytes() + (contacts.bodies != nullptr ? skin_solids_.bytes() : 0)});
   return report;
 }
 
@@ -317,7 +315,7 @@ Frame BodyOfColumns::frame(const FrameFields& fields) const {
   frame.material = cell_material_;
   std::vector<double> room;
   fill_columns(frame, fields, vertices_, system(), fields.stress ? volumes(room) : VertexVolumes{});
-  if (fields.contact) fill_contact(frame, contact(), body_contact());
+  if (fields.contact) fill_contact(frame, contacts());
   return frame;
 }
 

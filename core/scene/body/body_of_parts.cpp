@@ -71,7 +71,7 @@ BodyOfParts::BodyOfParts(const Problem& problem, const BodyNeeds& needs, MakePar
   for (const ForceNeed& need : needs.forces)
     if (need.over_parts) forces_.make({&need, 1}, {parts_.front().dimension, vertices_, {}});
   forces_.touch_obstacles(needs.obstacles, samples_);
-  forces_.touch_bodies(leading().body_contact());
+  forces_.touch_bodies(leading().contacts().bodies);
   take_state();
 }
 
@@ -124,7 +124,7 @@ void BodyOfParts::take_state() {
     for (const auto& [a, b] : system.ends) ends_.push_back({part.first + a, part.first + b});
     for (const Spring spring : system.springs) springs_.push_back(spring);
     for (const auto& term : part.terms) term->shift_to(part.first);
-    if (const ObstacleContact* contact = part.body->contact())
+    if (const ObstacleContact* contact = part.body->contacts().obstacles)
       for (SkinSample sample : contact->samples()) {
         for (std::uint32_t k = 0; k < sample.count; ++k) sample.nodes[k] += part.first;
         samples_.push_back(sample);
@@ -382,7 +382,7 @@ Frame BodyOfParts::frame(const FrameFields& fields) const {
   all.strain = std::move(of_links.strain);
   append(all.strain, of_springs.strain);
   all.fields = fields;
-  if (fields.contact) fill_contact(all, contact(), body_contact());
+  if (fields.contact) fill_contact(all, contacts());
   return all;
 }
 
@@ -413,7 +413,8 @@ MemoryReport BodyOfParts::memory() const {
                       {Part::springs, springs_.bytes() - springs_.damping_bytes() + bytes_of(ends_)},
                       {Part::damping, springs_.damping_bytes()}};
   forces_.report(report);
-  if (contact() != nullptr) report.push_back({Part::contact, bytes_of(samples_) + contact()->bytes()});
+  if (const ObstacleContact* obstacles = contacts().obstacles)
+    report.push_back({Part::contact, bytes_of(samples_) + obstacles->bytes()});
   for (const Member& part : parts_)
     for (const MemoryItem& item : part.body->memory()) report.push_back(item);
   return report;

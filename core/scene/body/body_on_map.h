@@ -191,7 +191,7 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
     VolumeRoom room;
     fill_columns(frame, fields, body_.vertices, system(),
                  fields.stress ? vertex_volumes(body_, corners(), room) : VertexVolumes{});
-    if (fields.contact) fill_contact(frame, contact(), body_contact());
+    if (fields.contact) fill_contact(frame, contacts());
     return frame;
   }
 
@@ -237,10 +237,8 @@ class BodyOnMap final : public SimulatedBody, public ChangingBody<Map> {
           {Part::cell_springs, bytes_of(body_.cell_springs) + (of_elements ? 0 : bytes_of(solids_.nodes))});
     forces_.report(report);
     if (has_skin_)
-      report.push_back(
-          {Part::contact,
-           skin_.bytes() + (contact() != nullptr ? contact()->bytes() : 0) +
-               (has_skin_solids_ ? skin_solids_.bytes() + body_contact()->bytes() + bytes_of(first_cell_) : 0)});
+      report.push_back({Part::contact, skin_.bytes() + contacts().bytes() +
+                                           (has_skin_solids_ ? skin_solids_.bytes() + bytes_of(first_cell_) : 0)});
     return report;
   }
 

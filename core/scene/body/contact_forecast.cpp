@@ -44,11 +44,24 @@ Behind behind_boundaries(const Problem& problem) {
   return behind;
 }
 
-/// Fills the share and the stiffness ratio of a forecast that has its depths.
-void compare_with_law(ContactForecast& f, const ContactLaw& law, double young, double height) {
+/// What presses onto a surface, or hits it: a column of the body, and the way it comes.
+struct Column {
+  double mass = 0.0, height = 0.0, young = 0.0;  // [kg/m^2], [m], [Pa]
+  double gravity = 0.0, upright = 1.0;           // [m/s^2], and the share of its weight that presses
+  double speed = 0.0, fall = 0.0;                // [m/s] before a fall of so many [m], or of ...
+  double duration = 0.0;                         // [s]
+};
+
+ContactForecast forecast(const ContactLaw& law, const Column& c) {
+  ContactForecast f;
+  f.mass_behind = c.mass;
+  f.depth_at_rest = law.depth_at_rest(c.mass * (c.gravity * c.upright));
+  f.speed = std::min(std::sqrt(c.speed * c.speed + 2.0 * c.gravity * c.fall), c.speed + c.gravity * c.duration);
+  f.depth_at_impact = law.depth_at_impact(c.mass * f.speed * f.speed / 2.0);
   const double deepest = std::max(f.depth_at_rest, f.depth_at_impact);
   f.share = deepest / law.depth;
-  if (deepest > 0.0) f.stiffness_ratio = young / height / law.stiffness(1.0, deepest);
+  if (deepest > 0.0) f.stiffness_ratio = c.young / c.height / law.stiffness(1.0, deepest);
+  return f;
 }
 
 class Forecaster {
@@ -68,17 +81,15 @@ class Forecaster {
   }
 
   ContactForecast at(const SceneObstacle& one) const {
-    const ContactLaw& law = one.law;
-    ContactForecast f;
-    f.mass_behind = std::max(behind_.density * height(one), behind_.surface);
     const auto* plane = std::get_if<HalfSpace>(&one.obstacle.shape);
-    const double weight = plane == nullptr ? gravity_ : gravity_ * std::max(0.0, up_.dot(plane->normal));
-    f.depth_at_rest = law.depth_at_rest(f.mass_behind * weight);
-    const double own = own_speed(one), fall = fall_onto(one);
-    f.speed = std::min(std::sqrt(own * own + 2.0 * gravity_ * fall), own + gravity_ * scene_.duration);
-    f.depth_at_impact = law.depth_at_impact(f.mass_behind * f.speed * f.speed / 2.0);
-    compare_with_law(f, law, behind_.young, height(one));
-    return f;
+    return forecast(one.law, {.mass = std::max(behind_.density * height(one), behind_.surface),
+                              .height = height(one),
+                              .young = behind_.young,
+                              .gravity = gravity_,
+                              .upright = plane == nullptr ? 1.0 : std::max(0.0, up_.dot(plane->normal)),
+                              .speed = own_speed(one),
+                              .fall = fall_onto(one),
+                              .duration = scene_.duration});
   }
 
  private:
@@ -178,19 +189,17 @@ class TouchForecaster {
   }
 
   ContactForecast at(const SceneTouch& touch) const {
-    const ContactLaw& law = touch.law;
     const Body &a = bodies_[touch.first], &b = bodies_[touch.second];
     const bool itself = touch.first == touch.second;
     const double column = itself ? a.height() : std::min(heights_ - std::min(a.height(), b.height()), extent_);
-    ContactForecast f;
-    f.mass_behind = behind_.density * column;
-    f.depth_at_rest = law.depth_at_rest(f.mass_behind * gravity_);
-    const double both = a.speed + b.speed;
-    const double fall = itself ? (changes_ ? a.height() : 0.0) : std::abs(a.high[0] - b.high[0]);
-    f.speed = std::min(std::sqrt(both * both + 2.0 * gravity_ * fall), both + gravity_ * scene_.duration);
-    f.depth_at_impact = law.depth_at_impact(f.mass_behind * f.speed * f.speed / 2.0);
-    compare_with_law(f, law, behind_.young, column);
-    return f;
+    return forecast(touch.law, {.mass = behind_.density * column,
+                                .height = column,
+                                .young = behind_.young,
+                                .gravity = gravity_,
+                                .upright = 1.0,
+                                .speed = a.speed + b.speed,
+                                .fall = itself ? (changes_ ? a.height() : 0.0) : std::abs(a.high[0] - b.high[0]),
+                                .duration = scene_.duration});
   }
 
  private:
@@ -244,13 +253,11 @@ double largest_share(std::span<const TouchForecast> contacts) {
   return most;
 }
 
-double contact_rate(const SpringSystem& system, const ObstacleContact* obstacles, const BodyContact* bodies,
-                    double share_of_depth) {
+double contact_rate(const SpringSystem& system, const Contacts& contacts, double share_of_depth) {
   std::vector<double> mobility(system.inverse_mass.begin(), system.inverse_mass.end());
   for (std::size_t i = 0; i < mobility.size(); ++i)
     if (system.fixed[i] != 0) mobility[i] = 0.0;
-  return std::sqrt((obstacles != nullptr ? obstacles->frequency_squared(mobility, share_of_depth) : 0.0) +
-                   (bodies != nullptr ? bodies->frequency_squared(mobility, share_of_depth) : 0.0));
+  return std::sqrt(contacts.frequency_squared(mobility, share_of_depth));
 }
 
 StableStep with_contact(StableStep limits, double rate) {

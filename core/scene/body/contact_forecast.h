@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/body_contact.h"
-#include "core/contact/obstacle_contact.h"
+#include "core/contact/contacts.h"
 #include "core/plain/problem.h"
 #include "core/scene/file/scene_file.h"
 #include "core/time/method/step_limit.h"
@@ -67,10 +66,8 @@ std::vector<TouchForecast> forecast_touches(const SceneFile& scene, const Proble
 double largest_share(std::span<const ContactForecast> contacts);
 double largest_share(std::span<const TouchForecast> contacts);
 
-/// [1/s] The contribution of contacts that deep to the frequencies of the system, as a root of a sum of squares: of
-/// both terms, or of one if the other is null. ObstacleContact::frequency_squared, BodyContact::frequency_squared.
-double contact_rate(const SpringSystem& system, const ObstacleContact* obstacles, const BodyContact* bodies,
-                    double share_of_depth);
+/// [1/s] The contribution of contacts that deep to the frequencies of the system, as a root of a sum of squares.
+double contact_rate(const SpringSystem& system, const Contacts& contacts, double share_of_depth);
 
 /// The limits of the step of a body while it has such contacts, whose stiffness nothing damps.
 StableStep with_contact(StableStep limits, double rate);

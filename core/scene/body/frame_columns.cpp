@@ -97,30 +97,26 @@ std::vector<std::uint8_t> constraints_of(const VertexColumns& v, const std::func
   return held;
 }
 
-void fill_contact(Frame& frame, const ObstacleContact* obstacles, const BodyContact* bodies) {
+void fill_contact(Frame& frame, const Contacts& contacts) {
   const auto& x = frame.mesh.points;
   frame.contact_force.assign(x.size(), Eigen::Vector3d(0, 0, 0));
   frame.contact_depth.assign(x.size(), 0.0);
-  const auto pair_of = [](const SkinSample& sample, double depth) {
-    FramePair pair{.depth = depth};
+  if (contacts.obstacles != nullptr) contacts.obstacles->add_forces({.x = x}, frame.contact_force);
+  if (contacts.bodies != nullptr) contacts.bodies->add_forces({.x = x}, frame.contact_force);
+  contacts.for_each_touch({.x = x}, [&](const Touch& touch) {
+    const SkinSample& sample = contacts.sample(touch);
+    FramePair pair{.depth = touch.depth};
     std::ranges::copy(sample.corners(), pair.sample.begin());
-    return pair;
-  };
-  if (obstacles != nullptr) {
-    obstacles->add_forces({.x = x}, frame.contact_force);
-    obstacles->vertex_depths(x, frame.contact_depth);
-    obstacles->for_each_touch(x, [&](std::uint32_t sample, std::uint32_t obstacle, const Penetration& inside) {
-      frame.contact_pairs.push_back(pair_of(obstacles->samples()[sample], inside.depth));
-      frame.contact_pairs.back().obstacle = obstacle;
-    });
-  }
-  if (bodies == nullptr) return;
-  bodies->add_forces({.x = x}, frame.contact_force);
-  bodies->raise_vertex_depths(x, frame.contact_depth);
-  for (const BodyTouch& touch : bodies->touching({.x = x})) {
-    frame.contact_pairs.push_back(pair_of(bodies->samples()[touch.sample], touch.depth));
-    std::ranges::copy(bodies->solids().triangles()[touch.triangle].nodes, frame.contact_pairs.back().face.begin());
-  }
+    if (sample.count == 1) {
+      double& depth = frame.contact_depth[sample.nodes[0]];
+      depth = std::max(depth, touch.depth);
+    }
+    if (touch.in_body != nullptr)
+      std::ranges::copy(contacts.bodies->solids().triangles()[touch.in_body->triangle].nodes, pair.face.begin());
+    else
+      pair.obstacle = touch.obstacle;
+    frame.contact_pairs.push_back(pair);
+  });
 }
 
 }  // namespace dartboard

@@ -6,8 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/contact/body_contact.h"
-#include "core/contact/obstacle_contact.h"
+#include "core/contact/contacts.h"
 #include "core/forces/springs.h"
 #include "core/mechanics/fracture/stress.h"
 #include "core/mechanics/mass_spring_body.h"
@@ -39,6 +38,6 @@ std::vector<std::uint8_t> constraints_of(
 
 /// Fill the columns of contact for the vertices of a body that has contact with obstacles or bodies; one may be null.
 /// pre  the frame has its points
-void fill_contact(Frame& frame, const ObstacleContact* obstacles, const BodyContact* bodies);
+void fill_contact(Frame& frame, const Contacts& contacts);
 
 }  // namespace dartboard

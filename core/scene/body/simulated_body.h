@@ -53,12 +53,8 @@ class SimulatedBody {
     BodyForce* const force = forces_.with_loads();
     return force == nullptr ? std::span<double>() : force->loads();
   }
-  /// Its contact with obstacles, and that of its parts with each other: the last terms of its system, in this order;
-  /// null where the body was made without it.
-  ObstacleContact* contact() { return forces_.obstacles(); }
-  const ObstacleContact* contact() const { return forces_.obstacles(); }
-  BodyContact* body_contact() { return forces_.bodies(); }
-  const BodyContact* body_contact() const { return forces_.bodies(); }
+  /// Its contact with obstacles, and that of its parts with each other: the last terms of its system, in this order.
+  Contacts contacts() const { return forces_.contacts(); }
   /// The terms without those of contact.
   ForceTerms terms_but_contact(ForceTerms terms) const { return forces_.terms_but_contact(terms); }
 

@@ -261,31 +261,27 @@ class Planner {
       leave_out("contact of bodies with obstacles and with each other", "/contact: not given");
       return;
     }
-    const ObstacleContact* obstacles = body_.contact();
-    const BodyContact* bodies = body_.body_contact();
-    const std::size_t places = (obstacles != nullptr ? obstacles->samples() : bodies->samples()).size();
+    const Contacts contacts = body_.contacts();
+    const std::size_t places = contacts.samples(contacts.obstacles == nullptr).size();
     ContactPlan plan{.obstacles = forecast_contacts(scene_, problem_), .touches = forecast_touches(scene_, problem_)};
     std::string against, why;
-    if (obstacles != nullptr) {
+    if (contacts.obstacles != nullptr) {
       against = counted(scene_.obstacles.size(), "obstacle");
       why = fmt::format("/contact/obstacles: {}", scene_.obstacles.size());
     }
-    if (bodies != nullptr) {
+    if (contacts.bodies != nullptr) {
       against += fmt::format("{}{} tetrahedra along the surface", against.empty() ? "" : " and ",
-                             bodies->solids().tetrahedra().size());
+                             contacts.bodies->solids().tetrahedra().size());
       for (const TouchForecast& touch : plan.touches) why += (why.empty() ? "" : "; ") + touch.path;
     }
-    const bool rubs =
-                   (obstacles != nullptr && obstacles->has_friction()) || (bodies != nullptr && bodies->has_friction()),
-               damps =
-                   (obstacles != nullptr && obstacles->has_damping()) || (bodies != nullptr && bodies->has_damping());
     add(Part::contact,
         fmt::format("{} places of the surface, each held against {}{}", places, against,
-                    rubs    ? "; restitution and friction around each step"
-                    : damps ? "; restitution around each step"
-                            : ""),
+                    contacts.has_friction()  ? "; restitution and friction around each step"
+                    : contacts.has_damping() ? "; restitution around each step"
+                                             : ""),
         why);
-    if (bodies == nullptr) leave_out("contact of bodies with each other and themselves", "/contact/bodies: none");
+    if (contacts.bodies == nullptr)
+      leave_out("contact of bodies with each other and themselves", "/contact/bodies: none");
     plan.share = std::max(largest_share(plan.obstacles), largest_share(plan.touches));
     // the body without contacts, which may exist at the start
     SpringSystem alone = body_.system();
@@ -294,7 +290,7 @@ class Planner {
     const Scheme& scheme = make_integrator(scene_.integrator)->scheme();
     const Horizon horizon = horizon_of(scene_.duration);
     plan.body_rate = limits.upper;
-    plan.contact_rate = contact_rate(alone, obstacles, bodies, plan.share);
+    plan.contact_rate = contact_rate(alone, contacts, plan.share);
     plan.body_step = limits.safe_step(scheme, horizon);
     plan.stable_step = with_contact(limits, plan.contact_rate).safe_step(scheme, horizon);
     plan_.contact = plan;

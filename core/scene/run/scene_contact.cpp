@@ -13,6 +13,7 @@
 #include "core/base/counted.h"
 #include "core/contact/box_around.h"
 #include "core/scene/run/body_in_words.h"
+#include "core/time/solve/stop_request.h"
 
 namespace dartboard {
 namespace {
@@ -31,7 +32,7 @@ std::string place_in_words(std::span<const std::uint32_t> nodes) {
 /// corners and its middle, which are all sampled; 0 for a vertex. Places inside are nearer.
 double farthest_on_face(const SkinSample& sample, std::span<const Vector3d> x) {
   if (sample.count == 1) return 0.0;
-  const Vector3d middle = ObstacleContact::place_of(sample, x);
+  const Vector3d middle = ObstacleContact::place_of(sample, {x});
   double farthest = 0.0;
   for (std::uint32_t k = 0; k < sample.count; ++k) {
     const Vector3d &a = x[sample.nodes[k]], &b = x[sample.nodes[(k + 1) % sample.count]];
@@ -85,8 +86,6 @@ double half_thickness(const SkinSolids& solids, std::uint32_t body, std::span<co
   }
   return 0.5 * least;
 }
-
-HeldVertices held_in(const SpringSystem& system) { return {system.fixed.span(), system.held_axes.span()}; }
 
 }  // namespace
 
@@ -155,8 +154,8 @@ std::string to_string(const ContactWarning& w, std::span<const std::string> obst
       w.time, place_in_words(w.nodes), w.value, other, w.limit);
 }
 
-SceneContact::SceneContact(ObstacleContact* obstacles, BodyContact* bodies, bool undoes)
-    : obstacles_(obstacles), bodies_(bodies), impulses_(obstacles, bodies), undoes_(undoes) {}
+SceneContact::SceneContact(const Contacts& contacts, bool undoes)
+    : contacts_(contacts), impulses_(contacts), undoes_(undoes) {}
 
 std::vector<std::uint32_t> SceneContact::nodes_of(const SkinSample& sample) const {
   std::vector<std::uint32_t> nodes;
@@ -169,147 +168,135 @@ bool SceneContact::has_warned(ContactWarning::Kind kind, bool of_bodies) const {
                              [=](const ContactWarning& w) { return w.kind == kind && w.of_bodies == of_bodies; });
 }
 
+void SceneContact::warn(ContactWarning warning) {
+  if (!has_warned(warning.kind, warning.of_bodies)) warnings_.push_back(std::move(warning));
+}
+
 void SceneContact::start(std::span<const Vector3d> x, std::span<const ContactForecast> expected,
                          std::span<const TouchForecast> expected_touches, double h) {
-  if (bodies_ != nullptr) start_bodies(x, expected_touches, h);
-  if (obstacles_ == nullptr) return;
-  obstacles_->place_at(0.0);
-  for (std::uint32_t o = 0; o < expected.size(); ++o)
-    if (const double half = obstacles_->obstacles()[o].half_thickness(); expected[o].speed * h > half) {
-      warnings_.push_back({.kind = ContactWarning::Kind::will_be_fast,
-                           .obstacle = o,
-                           .nodes = {},
-                           .value = expected[o].speed * h,
-                           .limit = half});
-      break;
+  if (contacts_.bodies != nullptr) {
+    const double half = expected_touches.empty() ? 0.0 : 0.5 * contacts_.bodies->least_altitude(x);
+    for (const TouchForecast& f : expected_touches) {
+      look_ahead({.of_bodies = true, .from = f.first, .into = f.second}, f.contact, f.law, half, h);
+      for (const auto& [from, into] : {std::pair(f.second, f.first), std::pair(f.first, f.second)})
+        if (!has_warned(ContactWarning::Kind::too_thin, true))
+          look_at_thickness({.of_bodies = true, .from = from, .into = into}, deepest_of(f.contact, f.law),
+                            half_thickness(contacts_.bodies->solids(), into, x));
     }
-  if (!expected.empty()) look_at_sizes(x, expected);
-  const ContactState found = obstacles_->state_at(x);
-  if (found.contacts == 0) return;
-  warnings_.push_back({.kind = ContactWarning::Kind::starts_inside,
-                       .obstacle = found.obstacle,
-                       .samples = found.contacts,
-                       .nodes = nodes_of(obstacles_->samples()[found.sample]),
-                       .value = found.deepest});
-}
-
-/// Warns of an obstacle that is too thin for the depths expected in it, and of one that is too small for the samples.
-void SceneContact::look_at_sizes(std::span<const Vector3d> x, std::span<const ContactForecast> expected) {
-  double gap = 0.0;
-  for (const SkinSample& sample : obstacles_->samples()) gap = std::max(gap, farthest_on_face(sample, x));
-  for (std::uint32_t o = 0; o < expected.size(); ++o) {
-    const Obstacle& obstacle = obstacles_->obstacles()[o];
-    const ContactLaw& law = obstacles_->laws()[o];
-    const double deepest = deepest_of(expected[o], law);
-    if (deepest > obstacle.half_thickness() && !has_warned(ContactWarning::Kind::too_thin))
-      warnings_.push_back({.kind = ContactWarning::Kind::too_thin,
-                           .obstacle = o,
-                           .nodes = {},
-                           .value = deepest,
-                           .limit = obstacle.half_thickness()});
-    if (!expected[o].keeps_restitution(law) && !has_warned(ContactWarning::Kind::soft_body))
-      warnings_.push_back({.kind = ContactWarning::Kind::soft_body,
-                           .obstacle = o,
-                           .nodes = {},
-                           .value = expected[o].stiffness_ratio,
-                           .limit = law.restitution});
-    if (const double unfelt = obstacle.depth_between(gap);
-        unfelt > law.depth && !has_warned(ContactWarning::Kind::too_small))
-      warnings_.push_back(
-          {.kind = ContactWarning::Kind::too_small, .obstacle = o, .nodes = {}, .value = unfelt, .limit = gap});
+    look_inside(true, x);
+    look_for_lost(0.0, x);
   }
+  if (contacts_.obstacles == nullptr) return;
+  contacts_.obstacles->place_at(0.0);
+  double gap = 0.0;
+  for (const SkinSample& sample : contacts_.samples(false))
+    if (!expected.empty()) gap = std::max(gap, farthest_on_face(sample, x));
+  for (std::uint32_t o = 0; o < expected.size(); ++o) {
+    const Obstacle& obstacle = contacts_.obstacles->obstacles()[o];
+    const ContactLaw& law = contacts_.obstacles->laws()[o];
+    look_ahead({.obstacle = o}, expected[o], law, obstacle.half_thickness(), h);
+    look_at_thickness({.obstacle = o}, deepest_of(expected[o], law), obstacle.half_thickness());
+    if (const double unfelt = obstacle.depth_between(gap); unfelt > law.depth)
+      warn({.kind = ContactWarning::Kind::too_small, .obstacle = o, .value = unfelt, .limit = gap});
+  }
+  look_inside(false, x);
 }
 
-void SceneContact::start_bodies(std::span<const Vector3d> x, std::span<const TouchForecast> expected, double h) {
-  const double half = 0.5 * bodies_->least_altitude(x);
-  for (const TouchForecast& f : expected)
-    if (f.contact.speed * h > half) {
-      warnings_.push_back({.kind = ContactWarning::Kind::will_be_fast,
-                           .of_bodies = true,
-                           .from = f.first,
-                           .into = f.second,
-                           .nodes = {},
-                           .value = f.contact.speed * h,
-                           .limit = half});
-      break;
-    }
-  const auto soft =
-      std::ranges::find_if(expected, [](const TouchForecast& f) { return !f.contact.keeps_restitution(f.law); });
-  if (soft != expected.end())
-    warnings_.push_back({.kind = ContactWarning::Kind::soft_body,
-                         .of_bodies = true,
-                         .from = soft->first,
-                         .into = soft->second,
-                         .nodes = {},
-                         .value = soft->contact.stiffness_ratio,
-                         .limit = soft->law.restitution});
-  for (const TouchForecast& f : expected)
-    for (const std::uint32_t body : {f.first, f.second}) {
-      if (has_warned(ContactWarning::Kind::too_thin, true)) continue;
-      const double thin = half_thickness(bodies_->solids(), body, x), deepest = deepest_of(f.contact, f.law);
-      if (!(deepest > thin)) continue;
-      warnings_.push_back({.kind = ContactWarning::Kind::too_thin,
-                           .of_bodies = true,
-                           .from = body == f.first ? f.second : f.first,
-                           .into = body,
-                           .nodes = {},
-                           .value = deepest,
-                           .limit = thin});
-    }
-  const BodyContactState found = bodies_->state_at(x);
-  if (found.contacts > 0)
-    warnings_.push_back({.kind = ContactWarning::Kind::starts_inside,
-                         .of_bodies = true,
-                         .from = found.from,
-                         .into = found.into,
-                         .samples = found.contacts,
-                         .nodes = nodes_of(bodies_->samples()[found.sample]),
-                         .value = found.deepest});
-  look_for_lost(0.0, x);
+/// Warns of a speed that may pass `half` [m] in a step of h [s], and of a body that is soft beside the contact.
+void SceneContact::look_ahead(ContactWarning at, const ContactForecast& expected, const ContactLaw& law, double half,
+                              double h) {
+  if (expected.speed * h > half) {
+    at.kind = ContactWarning::Kind::will_be_fast;
+    at.value = expected.speed * h;
+    at.limit = half;
+    warn(at);
+  }
+  if (expected.keeps_restitution(law)) return;
+  at.kind = ContactWarning::Kind::soft_body;
+  at.value = expected.stiffness_ratio;
+  at.limit = law.restitution;
+  warn(at);
 }
 
-void SceneContact::change_part(ObstacleContact* obstacles, BodyContact* bodies, std::span<const std::uint32_t> moved_to,
-                               std::span<const std::uint32_t> moved_to_of_bodies,
+/// Warns of what is entered more deeply than half of its thickness.
+void SceneContact::look_at_thickness(ContactWarning at, double deepest, double half) {
+  if (!(deepest > half)) return;
+  at.kind = ContactWarning::Kind::too_thin;
+  at.value = deepest;
+  at.limit = half;
+  warn(at);
+}
+
+/// Warns of samples that start inside something.
+void SceneContact::look_inside(bool of_bodies, std::span<const Vector3d> x) {
+  const Contacts contacts = of_bodies ? Contacts(nullptr, contacts_.bodies) : Contacts(contacts_.obstacles);
+  const ContactState found = contacts.state_at(x);
+  if (found.contacts == 0) return;
+  warn({.kind = ContactWarning::Kind::starts_inside,
+        .of_bodies = of_bodies,
+        .obstacle = of_bodies ? 0 : found.obstacle,
+        .from = found.from,
+        .into = found.into,
+        .samples = found.contacts,
+        .nodes = nodes_of(contacts.samples(of_bodies)[found.sample]),
+        .value = found.deepest});
+}
+
+void SceneContact::change_part(const Contacts& contacts, const ContactImpulses::MovedSamples& moved_to,
                                std::span<const std::uint32_t> vertices) {
-  obstacles_ = obstacles;
-  bodies_ = bodies;
+  contacts_ = contacts;
   vertices_ = vertices;
-  impulses_.change_part(obstacles, bodies, moved_to, moved_to_of_bodies, vertices);
+  impulses_.change_part(contacts, moved_to, vertices);
 }
 
 void SceneContact::resume(std::span<const Vector3d> x) {
-  if (bodies_ != nullptr) bodies_->find_lost(x);
+  if (contacts_.bodies != nullptr) contacts_.bodies->find_lost(x);
   start_ways(x);
 }
 
 void SceneContact::system_changed(const SpringSystem& system, std::span<const Vector3d> x) {
   impulses_.forget_places();
   terms_ = terms_of(system);
-  if (bodies_ != nullptr) least_altitude_ = bodies_->least_altitude(x);
+  if (contacts_.bodies != nullptr) least_altitude_ = contacts_.bodies->least_altitude(x);
   start_ways(x);
 }
 
-bool SceneContact::begin(double time, double h, const SpringSystem& system, Motion motion) {
+StepResult SceneContact::step(Integrator& integrator, const SpringSystem& system, Motion motion, double time,
+                              double h) {
   if (undoes_) kept_v_.assign(motion.v.begin(), motion.v.end());
+  const HeldVertices held{system.fixed.span(), system.held_axes.span()};
   const auto accelerate = [&system, this](std::span<const Vector3d> x, std::span<const Vector3d> v,
                                           std::span<Vector3d> a) { accelerations(system, terms_, x, v, a); };
-  return impulses_.begin(time, h, system.inverse_mass, held_in(system), motion.x, motion.v, accelerate);
+  if (impulses_.begin(time, h, system.inverse_mass, held, motion.x, motion.v, accelerate)) integrator.motion_changed();
+  StepResult result;
+  try {
+    result = integrator.step(system, motion, h);
+  } catch (const Stopped&) {
+    undo(time, motion);
+    throw;
+  }
+  if (!result.ok()) {
+    undo(time, motion);
+    return result;
+  }
+  if (impulses_.end(time, h, system.inverse_mass, held, motion.x, motion.v)) integrator.motion_changed();
+  look_after_step(time + h, h, motion);
+  return result;
 }
 
-bool SceneContact::end(double time, double h, const SpringSystem& system, Motion motion) {
-  const bool changed = impulses_.end(time, h, system.inverse_mass, held_in(system), motion.x, motion.v);
-  if (obstacles_ != nullptr) {
+/// Looks for what to warn of after a step of h [s] to `time`.
+void SceneContact::look_after_step(double time, double h, Motion motion) {
+  if (contacts_.obstacles != nullptr) {
     find_ways(false, motion.x);
-    look_at_ways(false, time + h);
-    if (!has_warned(ContactWarning::Kind::too_fast)) look_for_speed(time + h, h, motion.v);
+    look_at_ways(false, time);
+    if (!has_warned(ContactWarning::Kind::too_fast)) look_for_speed(time, h, motion.v);
   }
-  if (bodies_ != nullptr) {
-    const bool has_found_touches = look_for_lost(time + h, motion.x);
+  if (contacts_.bodies != nullptr) {
+    const bool has_found_touches = look_for_lost(time, motion.x);
     find_ways(true, motion.x, has_found_touches);
-    look_at_ways(true, time + h);
-    if (!has_warned(ContactWarning::Kind::too_fast, true)) look_for_speed_of_bodies(time + h, h, motion.v);
+    look_at_ways(true, time);
+    if (!has_warned(ContactWarning::Kind::too_fast, true)) look_for_speed_of_bodies(time, h, motion.v);
   }
-  return changed;
 }
 
 void SceneContact::undo(double time, Motion motion) {
@@ -319,8 +306,8 @@ void SceneContact::undo(double time, Motion motion) {
 }
 
 void SceneContact::look_for_speed(double time, double h, std::span<const Vector3d> v) {
-  for (std::uint32_t o = 0; o < obstacles_->obstacles().size(); ++o) {
-    const Obstacle& obstacle = obstacles_->obstacles()[o];
+  for (std::uint32_t o = 0; o < contacts_.obstacles->obstacles().size(); ++o) {
+    const Obstacle& obstacle = contacts_.obstacles->obstacles()[o];
     const double half = obstacle.half_thickness();
     if (!std::isfinite(half)) continue;
     const Vector3d speed = obstacle.velocity_at(time);
@@ -343,27 +330,28 @@ void SceneContact::look_for_speed(double time, double h, std::span<const Vector3
 }
 
 ContactWarning SceneContact::warning_of(ContactWarning::Kind kind, bool of_bodies, double time, const Way& way) const {
-  const SkinSample& sample = of_bodies ? bodies_->samples()[way.sample] : obstacles_->samples()[way.sample];
+  const SkinSample& sample = contacts_.samples(of_bodies)[way.sample];
   return {.kind = kind,
           .of_bodies = of_bodies,
           .time = time,
           .obstacle = of_bodies ? 0 : way.other,
-          .from = of_bodies ? bodies_->solids().group_at(sample.nodes[0]) : 0,
+          .from = of_bodies ? contacts_.bodies->group_of(way.sample) : 0,
           .into = of_bodies ? way.other : 0,
           .nodes = nodes_of(sample),
           .value = way.depth};
 }
 
 SceneContact::Way SceneContact::way_of(const BodyTouch& touch) const {
-  return {touch.sample, bodies_->solids().tetrahedra()[touch.tetrahedron].group, touch.depth,
-          bodies_->laws()[touch.law].depth, touch.normal};
+  return {touch.sample, contacts_.bodies->group_entered(touch), touch.depth, contacts_.bodies->laws()[touch.law].depth,
+          touch.normal};
 }
 
 /// Returns whether the touches at these places are those that were found last.
 bool SceneContact::look_for_lost(double time, std::span<const Vector3d> x) {
   using Kind = ContactWarning::Kind;
-  if (has_warned(Kind::out_of_reach, true) || (bodies_->has_none_to_lose() && impulses_.are_apart(x))) return false;
-  if (const auto lost = bodies_->find_lost(x); !lost.empty()) {
+  if (has_warned(Kind::out_of_reach, true) || (contacts_.bodies->has_none_to_lose() && impulses_.are_apart(x)))
+    return false;
+  if (const auto lost = contacts_.bodies->find_lost(x); !lost.empty()) {
     warnings_.push_back(warning_of(Kind::out_of_reach, true, time, way_of(lost.front())));
     warnings_.back().samples = lost.size();
   }
@@ -382,18 +370,19 @@ void SceneContact::find_ways(bool of_bodies, std::span<const Vector3d> x, bool h
     if (way.depth > 0.1 * way.allowed) ways.now.push_back(way);
   };
   if (of_bodies)
-    for (const BodyTouch& touch : has_found_touches ? bodies_->found_touching() : bodies_->touching({x}))
+    for (const BodyTouch& touch :
+         has_found_touches ? contacts_.bodies->found_touching() : contacts_.bodies->touching({x}))
       add(way_of(touch));
   else
-    obstacles_->for_each_touch(x, [&](std::uint32_t sample, std::uint32_t o, const Penetration& in) {
-      add({sample, o, in.depth, obstacles_->laws()[o].depth, in.normal});
+    contacts_.obstacles->for_each_touch({x}, [&](std::uint32_t sample, std::uint32_t o, const Penetration& in) {
+      add({sample, o, in.depth, contacts_.obstacles->laws()[o].depth, in.normal});
     });
 }
 
 /// Has anything a middle to come through, and has none been warned of?
 bool SceneContact::may_warn_of_passages(bool of_bodies) const {
   if (has_warned(ContactWarning::Kind::comes_through, of_bodies)) return false;
-  return of_bodies || std::ranges::any_of(obstacles_->obstacles(),
+  return of_bodies || std::ranges::any_of(contacts_.obstacles->obstacles(),
                                           [](const Obstacle& o) { return std::isfinite(o.half_thickness()); });
 }
 
@@ -423,8 +412,8 @@ void SceneContact::look_at_ways(bool of_bodies, double time) {
 /// The next step is compared with the ways out of these places.
 void SceneContact::start_ways(std::span<const Vector3d> x) {
   ways_ = {};
-  if (obstacles_ != nullptr) find_ways(false, x);
-  if (bodies_ != nullptr) find_ways(true, x);
+  if (contacts_.obstacles != nullptr) find_ways(false, x);
+  if (contacts_.bodies != nullptr) find_ways(true, x);
   impulses_.forget_places();
 }
 
@@ -456,13 +445,13 @@ ContactDiagnostics SceneContact::diagnostics(const SimulatedBody& body) const {
   const std::span<const Vector3d> x = body.vertices().position;
   const ContactLosses& losses = impulses_.losses();
   ContactDiagnostics d{.damped = losses.damped, .rubbed = losses.rubbed, .supplied = losses.supplied};
-  const auto add = [&d](const auto& now) {
+  const Contacts all = body.contacts();
+  for (const Contacts& one : {Contacts(all.obstacles), Contacts(nullptr, all.bodies)}) {
+    const ContactState now = one.state_at(x);
     d.energy += now.energy;
     d.contacts += now.contacts;
     d.deepest = std::max(d.deepest, now.deepest);
-  };
-  if (const ObstacleContact* obstacles = body.contact()) add(obstacles->state_at(x));
-  if (const BodyContact* bodies = body.body_contact()) add(bodies->state_at(x));
+  }
   return d;
 }
 

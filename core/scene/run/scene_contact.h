@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/body_contact.h"
 #include "core/contact/contact_impulses.h"
-#include "core/contact/obstacle_contact.h"
+#include "core/contact/contacts.h"
 #include "core/scene/body/contact_forecast.h"
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/body/simulated_body.h"
+#include "core/time/method/integrator.h"
 #include "core/time/system/accelerations.h"
 #include "core/time/system/spring_system.h"
 
@@ -43,7 +43,7 @@ struct ContactWarning {
   std::uint32_t from = 0;      // the body that enters
   std::uint32_t into = 0;      // the body that is entered; for too_fast, both are 0 where they are not known
   std::uint64_t samples = 1;
-  std::vector<std::uint32_t> nodes;  // of the sample: one vertex, or the corners of a face
+  std::vector<std::uint32_t> nodes{};  // of the sample: one vertex, or the corners of a face
   double value = 0.0, limit = 0.0;
 
   template <class Archive>
@@ -56,13 +56,11 @@ struct ContactWarning {
 std::string to_string(const ContactWarning& warning, std::span<const std::string> obstacles,
                       std::span<const std::string> bodies);
 
-/// Wraps each step of any integrator: ContactImpulses::begin, the step, ContactImpulses::end.
+/// Steps of any integrator with the work of contact around them, ContactImpulses, and what they find to warn of.
 class SceneContact {
  public:
-  /// The contact of both terms, or of one if the other is null. `undoes`: a step may have to be taken back, for which
-  /// velocities are kept.
-  /// pre  the contacts live as long as this
-  SceneContact(ObstacleContact* obstacles, BodyContact* bodies, bool undoes);
+  /// `undoes`: a step may fail, or be stopped, and has to be taken back, for which velocities are kept.
+  SceneContact(const Contacts& contacts, bool undoes);
 
   /// Find samples that start inside, and speeds that will be too high for steps of h [s].
   void start(std::span<const Eigen::Vector3d> x, std::span<const ContactForecast> expected,
@@ -73,24 +71,24 @@ class SceneContact {
   /// Continue with another part of the body, or with the whole, as ContactImpulses::change_part. `vertices` are the
   /// numbers of its vertices in the whole, by which warnings name them; empty for the whole.
   /// pre  system_changed follows
-  void change_part(ObstacleContact* obstacles, BodyContact* bodies, std::span<const std::uint32_t> moved_to,
-                   std::span<const std::uint32_t> moved_to_of_bodies, std::span<const std::uint32_t> vertices);
+  void change_part(const Contacts& contacts, const ContactImpulses::MovedSamples& moved_to,
+                   std::span<const std::uint32_t> vertices);
 
   /// Continue after the state has been read, for a body at these places.
   void resume(std::span<const Eigen::Vector3d> x);
 
-  /// To be called before a step from `time` [s] of length h [s]: true if the integrator has to be restarted.
-  bool begin(double time, double h, const SpringSystem& system, Motion motion);
-  /// To be called after the step; returns the same.
-  /// cost  O(samples), and with balls, blocks or bodies O(vertices) until a vertex that is too fast for them is found
-  bool end(double time, double h, const SpringSystem& system, Motion motion);
-  /// To be called in place of `end` if the step was not taken: restores the state before `begin`.
-  void undo(double time, Motion motion);
+  /// One step from `time` [s] of length h [s]. One that fails or is stopped leaves the velocities, the losses and the
+  /// obstacles as they were.
+  /// throws  Stopped
+  /// cost    besides the step O(samples), and with balls, blocks or bodies O(vertices) until a vertex that is too fast
+  ///         for them is found
+  StepResult step(Integrator& integrator, const SpringSystem& system, Motion motion, double time, double h);
   /// Move obstacles to their places at a time, for a body that has gone back to its state at that time.
   void go_to(double time) {
-    if (obstacles_ != nullptr) obstacles_->place_at(time);
+    if (contacts_.obstacles != nullptr) contacts_.obstacles->place_at(time);
   }
 
+  const ContactLosses& losses() const { return impulses_.losses(); }
   /// Work done on the body since the last call [J].
   double new_work();
 
@@ -112,12 +110,16 @@ class SceneContact {
     Eigen::Vector3d normal;
   };
 
+  void look_after_step(double time, double h, Motion motion);
+  void undo(double time, Motion motion);
   bool has_warned(ContactWarning::Kind kind, bool of_bodies = false) const;
   std::vector<std::uint32_t> nodes_of(const SkinSample& sample) const;
   std::uint32_t whole(std::uint32_t vertex) const { return vertices_.empty() ? vertex : vertices_[vertex]; }
-  void look_at_sizes(std::span<const Eigen::Vector3d> x, std::span<const ContactForecast> expected);
+  void warn(ContactWarning warning);
+  void look_ahead(ContactWarning at, const ContactForecast& expected, const ContactLaw& law, double half, double h);
+  void look_at_thickness(ContactWarning at, double deepest, double half);
+  void look_inside(bool of_bodies, std::span<const Eigen::Vector3d> x);
   void look_for_speed(double time, double h, std::span<const Eigen::Vector3d> v);
-  void start_bodies(std::span<const Eigen::Vector3d> x, std::span<const TouchForecast> expected, double h);
   bool look_for_lost(double time, std::span<const Eigen::Vector3d> x);
   void start_ways(std::span<const Eigen::Vector3d> x);
   void find_ways(bool of_bodies, std::span<const Eigen::Vector3d> x, bool has_found_touches = false);
@@ -127,8 +129,7 @@ class SceneContact {
   ContactWarning warning_of(ContactWarning::Kind kind, bool of_bodies, double time, const Way& way) const;
   Way way_of(const BodyTouch& touch) const;
 
-  ObstacleContact* obstacles_;
-  BodyContact* bodies_;
+  Contacts contacts_;
   std::span<const std::uint32_t> vertices_;  // of the part, in the whole; empty: all
   ContactImpulses impulses_;
   Terms terms_;

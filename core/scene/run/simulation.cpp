@@ -19,7 +19,6 @@
 #include "core/scene/run/sleeping.h"
 #include "core/scene/survey/cut_counts.h"
 #include "core/time/integrators.h"
-#include "core/time/solve/stop_request.h"
 #include "core/time/system/energy.h"
 #include "core/time/watch/preflight.h"
 
@@ -104,8 +103,7 @@ Simulation::Simulation(const SceneFile& scene)
     track_probes(scene.probes, *body_);
     std::optional<ExpectedContacts> expected;
     if (scene.has_contact()) {
-      contact_ =
-          std::make_unique<SceneContact>(body_->contact(), body_->body_contact(), integrator_->scheme().implicit);
+      contact_ = std::make_unique<SceneContact>(body_->contacts(), integrator_->scheme().implicit);
       guard_.expect_contact(expected.emplace(scene, problem).share());
     }
     if (!is_finite(diagnostics())) throw InputError(key_beyond_numbers(scene, problem.mesh));
@@ -209,8 +207,7 @@ Motion Simulation::stepped_motion() { return sleeping_ ? sleeping_->motion() : b
 void Simulation::step_another_part() {
   integrator_->restart();
   if (contact_) {
-    contact_->change_part(sleeping_->contact(), sleeping_->body_contact(), sleeping_->moved_samples(),
-                          sleeping_->moved_samples_of_bodies(), sleeping_->vertices());
+    contact_->change_part(sleeping_->contacts(), sleeping_->moved_samples(), sleeping_->vertices());
     contact_->system_changed(stepped_system(), stepped_motion().x);
   }
   watch_.start(stepped_system(), stepped_motion(), step_);
@@ -265,29 +262,11 @@ StepResult Simulation::integrate(double from, double duration) {
 
 StepResult Simulation::integrate_part(double from, double duration) {
   if (sleeping_ && sleeping_->is_all_asleep()) {
-    if (ObstacleContact* const obstacles = sleeping_->contact()) obstacles->place_at(from + duration);
+    if (contact_) contact_->go_to(from + duration);
     return {};
   }
-  return contact_ ? step_with_contact(from, duration) : integrator_->step(stepped_system(), stepped_motion(), duration);
-}
-
-StepResult Simulation::step_with_contact(double from, double duration) {
-  const SpringSystem system = stepped_system();
-  const Motion motion = stepped_motion();
-  if (contact_->begin(from, duration, system, motion)) integrator_->motion_changed();
-  StepResult result;
-  try {
-    result = integrator_->step(system, motion, duration);
-  } catch (const Stopped&) {
-    contact_->undo(from, motion);
-    throw;
-  }
-  if (!result.ok()) {
-    contact_->undo(from, motion);
-    return result;
-  }
-  if (contact_->end(from, duration, system, motion)) integrator_->motion_changed();
-  return result;
+  return contact_ ? contact_->step(*integrator_, stepped_system(), stepped_motion(), from, duration)
+                  : integrator_->step(stepped_system(), stepped_motion(), duration);
 }
 
 /// Takes a step in parts, from one change within it to the next.

@@ -132,7 +132,6 @@ class Simulation {
   void step_another_part();
   StepResult integrate(double from, double duration);
   StepResult integrate_part(double from, double duration);
-  StepResult step_with_contact(double from, double duration);
   StepResult step_in_parts();
   double end_of_part(double now, double end) const;
   /// What has changed between two steps or parts: nothing, the motion, or which components are stepped.

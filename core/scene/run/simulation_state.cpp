@@ -49,9 +49,9 @@ void Simulation::state(Archive& archive) {
       if (sample.count > sample.nodes.size() || std::ranges::any_of(sample.corners(), is_beyond))
         archive.fail("a sample of the boundary is at no vertex");
   };
-  if (const ObstacleContact* contact = body_->contact()) look_at_samples(contact->samples());
-  if (const BodyContact* contact = body_->body_contact()) {
-    look_at_samples(contact->samples());
+  const Contacts contacts = body_->contacts();
+  for (const bool of_bodies : {false, true}) look_at_samples(contacts.samples(of_bodies));
+  if (const BodyContact* contact = contacts.bodies) {
     for (const SkinTetrahedron& tetrahedron : contact->solids().tetrahedra())
       if (std::ranges::any_of(tetrahedron.nodes, is_beyond)) archive.fail("a cell at the boundary is at no vertex");
     for (const SkinTriangle& triangle : contact->solids().triangles())

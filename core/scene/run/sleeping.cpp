@@ -88,7 +88,7 @@ void Sleeping::find_components() {
     ordered_[c.first + c.count++] = i;
   }
   done_.asleep = 0;
-  if (const BodyContact* contact = body_.body_contact())
+  if (const BodyContact* contact = body_.contacts().bodies)
     for (const SkinSample& sample : contact->samples())
       components_[component_[sample.nodes[0]]].group = contact->solids().group_at(sample.nodes[0]);
   for (Component& c : components_) {
@@ -98,7 +98,7 @@ void Sleeping::find_components() {
   }
   update<Vector3d>(pull_, body_.pull());
   update<double>(pressures_, body_.loads());
-  if (const ObstacleContact* contact = body_.contact()) update(obstacles_, contact->moved());
+  if (const ObstacleContact* contact = body_.contacts().obstacles) update(obstacles_, contact->moved());
 }
 
 bool Sleeping::is_slow(const Component& c) {
@@ -135,7 +135,7 @@ double Sleeping::look_at_box(Component& c) {
 }
 
 bool Sleeping::may_touch(const Component& a, const Component& b) const {
-  return a.group && b.group && body_.body_contact()->may_touch(*a.group, *b.group);
+  return a.group && b.group && body_.contacts().bodies->may_touch(*a.group, *b.group);
 }
 
 // Boxes that are not finite are near to nothing; such a run is ended by its watch.
@@ -153,7 +153,7 @@ void Sleeping::wake(Component& c) {
 }
 
 bool Sleeping::wake_near_awake() {
-  if (done_.asleep == 0 || body_.body_contact() == nullptr) return false;
+  if (done_.asleep == 0 || body_.contacts().bodies == nullptr) return false;
   std::vector<const Component*> waking;  // those whose sleepers nearby are still to be found
   for (const std::uint32_t k : awake_) {
     Component& c = components_[k];
@@ -183,7 +183,7 @@ bool Sleeping::wake_near_awake() {
 }
 
 bool Sleeping::wake_near_moving_obstacles() {
-  ObstacleContact* const contact = body_.contact();
+  ObstacleContact* const contact = body_.contacts().obstacles;
   if (contact == nullptr) return false;
   bool any = false;
   for (std::uint32_t o = 0; o < obstacles_.size(); ++o) {
@@ -260,7 +260,7 @@ bool Sleeping::put_to_sleep() {
   if (std::ranges::none_of(awake_, is_ready)) return false;
   std::vector<Component*> ready, others;
   for (const std::uint32_t k : awake_) (is_ready(k) ? ready : others).push_back(&components_[k]);
-  if (body_.body_contact() != nullptr) {
+  if (body_.contacts().bodies != nullptr) {
     for (auto* some : {&ready, &others})
       for (Component* c : *some) look_at_box(*c);
     // one that is near to a component that stays awake stays awake as well
@@ -281,7 +281,8 @@ bool Sleeping::put_to_sleep() {
 void Sleeping::give() {
   if (!part_) return;
   part_->give(body_.motion());
-  if (part_contact_ && body_.contact() != nullptr) body_.contact()->place_as(*part_contact_->obstacles());
+  if (part_contact_ && body_.contacts().obstacles != nullptr)
+    body_.contacts().obstacles->place_as(*part_contact_->contacts().obstacles);
 }
 
 bool Sleeping::after_step(std::uint64_t n) {
@@ -299,18 +300,11 @@ bool Sleeping::after_step(std::uint64_t n) {
 }
 
 std::array<std::vector<std::uint32_t>, 2> Sleeping::samples_in_whole() {
+  if (part_contact_) return part_contact_->whole_samples();
   std::array<std::vector<std::uint32_t>, 2> numbers;
-  const auto count_to = [](const auto* contact, std::vector<std::uint32_t>& to) {
-    to.resize(contact != nullptr ? contact->samples().size() : 0);
-    std::iota(to.begin(), to.end(), std::uint32_t{0});
-  };
-  if (part_contact_) {
-    const auto of_obstacles = part_contact_->samples_of_obstacles(), of_bodies = part_contact_->samples_of_bodies();
-    numbers[0].assign(of_obstacles.begin(), of_obstacles.end());
-    numbers[1].assign(of_bodies.begin(), of_bodies.end());
-  } else {
-    count_to(body_.contact(), numbers[0]);
-    count_to(body_.body_contact(), numbers[1]);
+  for (const std::size_t k : {0, 1}) {
+    numbers[k].resize(body_.contacts().samples(k == 1).size());
+    std::iota(numbers[k].begin(), numbers[k].end(), std::uint32_t{0});
   }
   return numbers;
 }
@@ -319,8 +313,6 @@ void Sleeping::make_part() {
   const auto before = samples_in_whole();
   part_.reset();
   part_contact_.reset();
-  ObstacleContact* const obstacles = body_.contact();
-  BodyContact* const bodies = body_.body_contact();
   awake_.clear();
   for (std::uint32_t k = 0; k < components_.size(); ++k) {
     components_[k].free_way = 0.0;
@@ -337,10 +329,11 @@ void Sleeping::make_part() {
     const SpringSystem system = body_.system();
     part_ = std::make_unique<SystemPart>(system, body_.terms_but_contact(system.terms), std::move(awake));
     part_->take(body_.motion(), body_.pull());
-    if (obstacles != nullptr || bodies != nullptr) {
-      part_contact_ = std::make_unique<ContactOfPart>(obstacles, bodies, part_->subset());
-      if (obstacles != nullptr) part_->add(*part_contact_->obstacles());
-      if (bodies != nullptr) part_->add(*part_contact_->bodies());
+    if (const Contacts whole = body_.contacts(); whole.any()) {
+      part_contact_ = std::make_unique<ContactOfPart>(whole, part_->subset());
+      const Contacts own = part_contact_->contacts();
+      if (own.obstacles != nullptr) part_->add(*own.obstacles);
+      if (own.bodies != nullptr) part_->add(*own.bodies);
     }
   }
   const auto after = samples_in_whole();

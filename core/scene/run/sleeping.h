@@ -12,7 +12,7 @@
 
 #include "core/base/archive.h"
 #include "core/contact/box_around.h"
-#include "core/contact/contact_of_part.h"
+#include "core/contact/contacts.h"
 #include "core/scene/body/simulated_body.h"
 #include "core/scene/file/scene_file.h"
 #include "core/time/system/system_part.h"
@@ -45,17 +45,15 @@ class Sleeping {
 
   SpringSystem system() const { return part_ ? part_->system() : body_.system(); }
   Motion motion() { return part_ ? part_->motion() : body_.motion(); }
-  ObstacleContact* contact() { return part_contact_ ? part_contact_->obstacles() : body_.contact(); }
-  BodyContact* body_contact() { return part_contact_ ? part_contact_->bodies() : body_.body_contact(); }
+  Contacts contacts() { return part_contact_ ? part_contact_->contacts() : body_.contacts(); }
   /// Its vertices in the body; empty for all.
   std::span<const std::uint32_t> vertices() const {
     return part_ ? part_->vertices() : std::span<const std::uint32_t>();
   }
   /// The number in the body of one of its vertices.
   std::uint32_t whole(std::uint32_t vertex) const { return vertex < vertices().size() ? vertices()[vertex] : vertex; }
-  /// After the last change of what is stepped: the number now of each sample before, as ContactImpulses::change_part.
-  std::span<const std::uint32_t> moved_samples() const { return moved_samples_[0]; }
-  std::span<const std::uint32_t> moved_samples_of_bodies() const { return moved_samples_[1]; }
+  /// After the last change of what is stepped: the number now of each sample before, as ContactImpulses::MovedSamples.
+  const std::array<std::vector<std::uint32_t>, 2>& moved_samples() const { return moved_samples_; }
   bool is_all_asleep() const { return done_.asleep == components_.size(); }
 
   // ---- a step

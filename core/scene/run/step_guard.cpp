@@ -30,14 +30,13 @@ StepGuard::StepGuard(const SceneFile& scene, double step)
     : step_(step), treatment_(scene.unstable_step), horizon_(horizon_of(scene.duration)) {}
 
 double StepGuard::rate_of_contact(const SimulatedBody& body) const {
-  return contact_rate(body.system(), body.contact(), body.body_contact(), contact_share_);
+  return contact_rate(body.system(), body.contacts(), contact_share_);
 }
 
 // The memory of the close estimate is freed: it is made at the start and after events only.
 StableStep StepGuard::close_limits(const SimulatedBody& body) const {
   const StableStep limits = StableStepEstimate().refresh(body.system(), body.vertices().position);
-  const bool has_contact = body.contact() != nullptr || body.body_contact() != nullptr;
-  return has_contact ? with_contact(limits, rate_of_contact(body)) : limits;
+  return body.contacts().any() ? with_contact(limits, rate_of_contact(body)) : limits;
 }
 
 StepLimit StepGuard::limit(const SimulatedBody& body, const Scheme& scheme) const {

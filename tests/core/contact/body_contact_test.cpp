@@ -13,6 +13,7 @@
 #include <set>
 #include <vector>
 
+#include "core/contact/contacts.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
 #include "core/plain/random.h"
@@ -81,11 +82,11 @@ TEST(BodyContact, PullsAlongTheSlopeOfItsEnergyWithoutSumOrTorque) {
   for (const int p : {2, 3, 4})
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
       const TwoBodies balls = overlapping_balls(p, seed);
-      const BodyContact& term = *balls.contact;
+      BodyContact& term = *balls.contact;
       const auto& x = balls.x;
       const auto force = forces_of(term, x);
       const double size = size_of(force), d = 1e-6;
-      ASSERT_GT(term.state_at(x).contacts, 10u);
+      ASSERT_GT(Contacts(nullptr, &term).state_at(x).contacts, 10u);
       Vector3d sum(0, 0, 0), torque(0, 0, 0);
       for (std::size_t i = 0; i < x.size(); ++i) {
         sum += force[i];
@@ -212,7 +213,7 @@ TEST(BodyContact, FindsByListsWhatEveryPairAskedForFinds) {
           if (i >= speed.size() / 3) speed[i] -= Vector3d(0.005, 0.0075, 0.005);
         }
       for (std::size_t i = 0; i < speed.size(); ++i) balls.x[i] += speed[i];
-      inverted += balls.contact->state_at(balls.x).inverted;
+      inverted += Contacts(nullptr, balls.contact.get()).state_at(balls.x).inverted;
       if (step % 4 != 0) continue;  // lists are kept up to date in every step, and compared in some
       const auto found = balls.contact->touching({balls.x});
       expect_same(found, balls.contact->touching_by_brute_force({balls.x}, nullptr));
@@ -345,8 +346,8 @@ TEST(BodyContact, KnowsNoWayOutOfBodiesThatWereApart) {
 // Vertices that are NaN, or far from everything, are nowhere inside, and their lists hold nothing.
 TEST(BodyContact, LooksAtNothingThatIsNoNumber) {
   TwoBodies balls = overlapping_balls(3, 6);
-  const std::size_t contacts = balls.contact->state_at(balls.x).contacts;
-  const std::uint32_t inside = balls.contact->state_at(balls.x).sample;
+  const std::size_t contacts = Contacts(nullptr, balls.contact.get()).state_at(balls.x).contacts;
+  const std::uint32_t inside = Contacts(nullptr, balls.contact.get()).state_at(balls.x).sample;
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
     auto x = balls.x;
     x[balls.skin->samples[inside].nodes[0]][1] = bad;
@@ -391,9 +392,9 @@ TwoBodies ring(double overlap) {
 
 // A body touches itself where its cells are not neighbours, and nowhere else, however it is bent.
 TEST(BodyContact, TouchesItselfBeyondTheNeighboursOfNeighbours) {
-  EXPECT_EQ(ring(-0.05).contact->state_at(ring(-0.05).x).contacts, 0u);
+  EXPECT_EQ(Contacts(nullptr, ring(-0.05).contact.get()).state_at(ring(-0.05).x).contacts, 0u);
   const TwoBodies closed = ring(0.02);
-  const BodyContactState state = closed.contact->state_at(closed.x);
+  const ContactState state = Contacts(nullptr, closed.contact.get()).state_at(closed.x);
   EXPECT_GT(state.contacts, 10u);
   EXPECT_NEAR(state.deepest, 0.02 * 2.4, 0.02);
   for (const BodyTouch& t : closed.contact->touching({closed.x})) {
@@ -407,7 +408,7 @@ TEST(BodyContact, TouchesItselfBeyondTheNeighboursOfNeighbours) {
   SplitMix64 random(4);
   for (Vector3d& x : box.x)
     for (double& c : x) c += 0.4 * random.next_signed();
-  EXPECT_EQ(box.contact->state_at(box.x).contacts, 0u);
+  EXPECT_EQ(Contacts(nullptr, box.contact.get()).state_at(box.x).contacts, 0u);
 }
 
 /// A tetrahedron of this size with a corner at the origin, pointing down.
@@ -450,16 +451,17 @@ TEST(BodyContact, TellsWhatIsOutOfReach) {
   solids.resize(8, 1, 2);
   solids.add(SkinTetrahedron{{0, 1, 2, 3}, 0, 0});
   solids.add(SkinTetrahedron{{4, 5, 6, 7}, 1, 1});
-  const BodyContact contact(samples, solids, between(law_between(3, 1000.0, 0.1)));
-  const BodyContactState state = contact.state_at(x);
+  BodyContact contact(samples, solids, between(law_between(3, 1000.0, 0.1)));
+  const Contacts contacts(nullptr, &contact);
+  const ContactState state = contacts.state_at(x);
   EXPECT_EQ(state.contacts, 0u);
   EXPECT_EQ(state.energy, 0.0);
   EXPECT_EQ(state.out_of_reach, 1u);
   EXPECT_EQ(state.lost, 0u);
   solids.add(SkinTriangle{{0, 2, 1}, 0, 0});
-  EXPECT_EQ(contact.state_at(x).contacts, 1u);
-  EXPECT_NEAR(contact.state_at(x).deepest, 0.2, 1e-15);
-  EXPECT_EQ(contact.state_at(x).out_of_reach, 0u);
+  EXPECT_EQ(contacts.state_at(x).contacts, 1u);
+  EXPECT_NEAR(contacts.state_at(x).deepest, 0.2, 1e-15);
+  EXPECT_EQ(contacts.state_at(x).out_of_reach, 0u);
 }
 
 // A tip that goes on inwards out of the cells along the boundary is reported when it leaves them, with its last depth;
@@ -473,7 +475,7 @@ TEST(BodyContact, TellsWhatGoesOnInwards) {
     move(-0.01);
     EXPECT_TRUE(two.contact->find_lost(two.x).empty());
   }
-  EXPECT_GT(two.contact->state_at(two.x).contacts, 0u);
+  EXPECT_GT(Contacts(nullptr, two.contact.get()).state_at(two.x).contacts, 0u);
   for (int k = 0; k < 6; ++k) {
     move(0.01);
     EXPECT_TRUE(two.contact->find_lost(two.x).empty());
@@ -496,21 +498,21 @@ TEST(BodyContact, LosesNothingThatLeavesOverAnEdge) {
   TwoBodies two(kuhn_box(4, 4, 4, 0.25), shifted(tip(0.01), {0.9, 0.52, 0.999}), between(law_between(3, 1000.0, 0.1)));
   bool touched = false;
   for (int k = 0; k < 20; ++k) {
-    touched = touched || two.contact->state_at(two.x).contacts > 0;
+    touched = touched || Contacts(nullptr, two.contact.get()).state_at(two.x).contacts > 0;
     EXPECT_TRUE(two.contact->find_lost(two.x).empty()) << k;
     for (std::size_t j = two.x.size() - 4; j < two.x.size(); ++j) two.x[j] += Vector3d(0.01, 0, -0.0005);
   }
   EXPECT_TRUE(touched);
-  EXPECT_EQ(two.contact->state_at(two.x).contacts, 0u);
+  EXPECT_EQ(Contacts(nullptr, two.contact.get()).state_at(two.x).contacts, 0u);
 }
 
 TEST(BodyContact, SkipsCellsThatAreTurnedInsideOut) {
   TwoBodies two(one_tetrahedron(), shifted(tip(0.01), {0.2, 0.2, 0.2}), between(law_between(3, 1000.0, 0.5)));
-  EXPECT_GT(two.contact->state_at(two.x).contacts, 0u);
-  EXPECT_EQ(two.contact->state_at(two.x).inverted, 0u);
+  EXPECT_GT(Contacts(nullptr, two.contact.get()).state_at(two.x).contacts, 0u);
+  EXPECT_EQ(Contacts(nullptr, two.contact.get()).state_at(two.x).inverted, 0u);
   std::swap(two.x[0], two.x[1]);
-  EXPECT_EQ(two.contact->state_at(two.x).contacts, 0u);
-  EXPECT_GT(two.contact->state_at(two.x).inverted, 0u);
+  EXPECT_EQ(Contacts(nullptr, two.contact.get()).state_at(two.x).contacts, 0u);
+  EXPECT_GT(Contacts(nullptr, two.contact.get()).state_at(two.x).inverted, 0u);
 }
 
 // The longest face of a cell of six in a cube is a diagonal of the cube wide: h^3 / 2 over h sqrt(2) h / 2.
@@ -552,21 +554,14 @@ TEST(BodyContact, BoundsTheFrequenciesThatItAdds) {
   }
 }
 
-// By vertex, and the deepest of all with its names.
+// The deepest of all with the names of both bodies.
 TEST(BodyContact, TellsItsDepths) {
   const TwoBodies boxes = stacked(4, 0.01, law_between(3, 1000.0, 0.02));
-  const BodyContactState state = boxes.contact->state_at(boxes.x);
+  const ContactState state = Contacts(nullptr, boxes.contact.get()).state_at(boxes.x);
   EXPECT_NEAR(state.deepest, 0.01, 1e-15);
   EXPECT_NEAR(state.deepest_share, 0.5, 1e-13);
   EXPECT_EQ(state.from + state.into, 1u);
   EXPECT_NEAR(state.energy, boxes.contact->energy(boxes.x), 0.0);
-  std::vector<double> depth(boxes.x.size(), 0.004);
-  boxes.contact->raise_vertex_depths(boxes.x, depth);
-  for (std::size_t i = 0; i < depth.size(); ++i) {
-    const Vector3d x = boxes.mesh.points[i];
-    const bool within = x[0] > 0.1 && x[0] < 0.9 && x[1] > 0.1 && x[1] < 0.9 && std::abs(x[2] - 0.995) < 0.01;
-    EXPECT_NEAR(depth[i], within ? 0.01 : 0.004, 1e-15) << x.transpose();
-  }
 }
 
 // Contacts are kept for the places where they were found: other places, and other calls, do not get them.

@@ -34,7 +34,7 @@ struct Balls {
         skin(std::make_unique<MeshSkin>(skin_of_mesh<Map3>(mesh, 64))),
         x(mesh.points),
         contact(skin->samples, skin->solids, {{0, 1, law(restitution, friction)}}),
-        impulses(nullptr, &contact) {
+        impulses(Contacts(nullptr, &contact)) {
     SplitMix64 random(5);
     for (std::size_t i = 0; i < x.size(); ++i) {
       Vector3d speed(0, 0, 0);
@@ -149,7 +149,7 @@ TEST(BodyImpulses, HaveFrictionWithoutTorqueHalfWay) {
     sum += (force[i] - without[i]).norm();
     power += force[i].dot(balls.v[i]);
   }
-  for (const BodyFriction& f : friction) worst = std::max(worst, f.force.norm());
+  for (const ContactFriction& f : friction) worst = std::max(worst, f.force.norm());
   EXPECT_GT(sum, worst);
   EXPECT_NEAR(balls.contact.power(all, balls.x, balls.v), power, 1e-13 * std::abs(power) + 1e-13);
   EXPECT_NEAR(balls.contact.energy(balls.x), energy, 1e-15 * energy);

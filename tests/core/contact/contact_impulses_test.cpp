@@ -210,15 +210,16 @@ TEST(ContactImpulses, BeginAtTheSpeedAtWhichASampleMeetsTheSurface) {
     law.pressure = 1e-12;
     TouchingVertices body = one_vertex({0, 0, height}, {0, 0, -speed});
     ObstacleContact contact({law}, {{HalfSpace{}}}, body.samples);
-    Bounces bounces(&contact, nullptr);
+    Bounces bounces(contact);
     ContactLosses losses;
     const HeldVertices free;
-    bounces.before({0.0, h, true, false, body.inverse_mass, free, body.x, body.v}, losses);
+    bounces.before({0.0, h, contact, body.inverse_mass, free, body.x, body.v}, losses);
     body.x[0][2] -= speed * h + 0.5 * g * h * h;
     body.v[0][2] -= g * h;
-    bounces.after({h, h, true, false, body.inverse_mass, free, body.x, body.v}, losses);
+    bounces.after({h, h, contact, body.inverse_mass, free, body.x, body.v}, losses);
     // the factor is 1 + s rate / first
-    const double rate = 0.5, first = law.loss() * rate / (bounces.factor(0, 0, law, rate) - 1.0);
+    const double rate = 0.5,
+                 first = law.loss() * rate / (bounces.factor({.sample = 0, .obstacle = 0, .law = &law}, rate) - 1.0);
     EXPECT_NEAR(first, met, g * h * g * h / (8 * (speed + g * h / 2))) << height;
   }
 }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/contact/contact_impulses.h"
+#include "core/contact/contacts.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/plain/error.h"
 #include "core/time/integrators.h"
@@ -47,7 +48,7 @@ struct Colliding {
       floor = std::make_unique<ObstacleContact>(std::move(with_obstacles), obstacles, skin->samples);
       terms.push_back(floor.get());
     }
-    impulses = std::make_unique<ContactImpulses>(floor.get(), contact.get());
+    impulses = std::make_unique<ContactImpulses>(Contacts(floor.get(), contact.get()));
   }
   SpringSystem system() const {
     SpringSystem system = body.system();
@@ -83,7 +84,7 @@ struct Colliding {
     }
     return sum / all;
   }
-  std::size_t contacts() const { return contact->state_at(body.x).contacts; }
+  std::size_t contacts() const { return Contacts(nullptr, contact.get()).state_at(body.x).contacts; }
 };
 
 Mesh turned(Mesh mesh, const Vector3d& axis, double angle) {
@@ -205,7 +206,7 @@ TEST(BodyContactMotion, LetsNoAlignedBoxesOfOneCellThroughEachOther) {
   for (int k = 0; k < 2000; ++k) {
     ASSERT_TRUE(two.step(1e-4).ok());
     contacts = std::max(contacts, two.contacts());
-    ASSERT_LE(two.contact->state_at(two.body.x).deepest, 0.03);
+    ASSERT_LE(Contacts(nullptr, two.contact.get()).state_at(two.body.x).deepest, 0.03);
   }
   EXPECT_GE(contacts, 4u);
   EXPECT_GT((two.speed(1) - two.speed(0))[2], 0.45);

@@ -12,6 +12,7 @@
 
 #include "core/base/archive.h"
 #include "core/contact/body_contact.h"
+#include "core/contact/contacts.h"
 #include "core/mechanics/refine.h"
 #include "core/meshes/generators/mesh_generators.h"
 #include "core/views/boundary_surface.h"
@@ -248,7 +249,7 @@ TYPED_TEST(SkinSolidsOf, ABodyHaveNoContactInAFreshCut) {
     Skin skin;
     skin.rebuild(body);
     SkinSolidsView view = view_of(body);
-    const BodyContact contact(skin.samples(), view.solids(), {{0, 0, law}});
+    BodyContact contact(skin.samples(), view.solids(), {{0, 0, law}});
     if (bent)
       for (Vector3d& x : body.vertices.position)
         x = Vector3d(0.7 * x[0] + 0.1 * x[1] * x[2], 0.9 * x[1] - 0.05 * x[0] * x[0], x[2] + 0.1 * x[0] * x[1]);
@@ -256,7 +257,7 @@ TYPED_TEST(SkinSolidsOf, ABodyHaveNoContactInAFreshCut) {
     cut_through(body, [&](const auto& now, const ChangedEmbeddings& changed) {
       skin.apply(now, changed);
       view.apply(now, changed);
-      ASSERT_EQ(contact.state_at(now.vertices.position).contacts, 0u);
+      ASSERT_EQ(Contacts(nullptr, &contact).state_at(now.vertices.position).contacts, 0u);
       ASSERT_EQ(contact.energy(now.vertices.position), 0.0);
     });
     // the vertices of the right part

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/base/archive.h"
+#include "core/contact/contacts.h"
 #include "core/contact/obstacle_contact.h"
 #include "core/mechanics/refine.h"
 #include "core/meshes/generators/mesh_generators.h"
@@ -35,7 +36,7 @@ double area_of(const Skin& skin) {
   return area;
 }
 
-Vector3d place(const SkinSample& s, const std::vector<Vector3d>& x) { return ObstacleContact::place_of(s, x); }
+Vector3d place(const SkinSample& s, const std::vector<Vector3d>& x) { return ObstacleContact::place_of(s, {x}); }
 
 /// f(x) over the samples.
 template <class F>
@@ -272,7 +273,7 @@ TEST(SkinOfASurface, FeelsTheWholeForceOfATiltedPlane) {
   // deep by top - slope * y everywhere, across the plane
   const double across = std::sqrt(1 + slope * slope);
   const Vector3d normal = Vector3d(0, slope, 1) / across;
-  const ObstacleContact term({law}, {{HalfSpace{{0, 0, top}, normal}}}, skin.samples());
+  ObstacleContact term({law}, {{HalfSpace{{0, 0, top}, normal}}}, skin.samples());
   Vector3d sum(0, 0, 0);
   std::vector<Vector3d> force(body.vertices.size(), Vector3d(0, 0, 0));
   term.add_forces({body.vertices.position}, force);
@@ -290,13 +291,13 @@ TYPED_TEST(SkinOf, AFreshCutHasNoForceAndNoJump) {
   ContactLaw law;
   law.pressure = 1000.0;
   law.depth = 0.01;
-  const ObstacleContact term({law, law}, {{HalfSpace{}}, {Ball{{1.75, 0.4, 0.3}, 1.0}}}, skin.samples());
+  ObstacleContact term({law, law}, {{HalfSpace{}}, {Ball{{1.75, 0.4, 0.3}, 1.0}}}, skin.samples());
   SplitMix64 random(5);
   const std::size_t before = skin.samples().size();
   for (int k = 0; k < 60; ++k) {
     skin.apply(body, adapt(body, dissociate_something(body.map, random)));
     ASSERT_EQ(term.energy(body.vertices.position), 0.0);
-    ASSERT_EQ(term.state_at(body.vertices.position).contacts, 0u);
+    ASSERT_EQ(Contacts(term).state_at(body.vertices.position).contacts, 0u);
   }
   EXPECT_GT(skin.samples().size(), before + 60);
 }
@@ -308,8 +309,9 @@ TYPED_TEST(SkinOf, ACutAwayFromTheContactLeavesItsForces) {
   ContactLaw law;
   law.pressure = 1000.0;
   law.depth = 0.01;
-  const ObstacleContact term({law}, {{HalfSpace{{0, 0, 0.01}, {0, 0, 1}}}}, skin.samples());
-  const double energy = term.energy(body.vertices.position), area = term.state_at(body.vertices.position).area;
+  ObstacleContact term({law}, {{HalfSpace{{0, 0, 0.01}, {0, 0, 1}}}}, skin.samples());
+  const double energy = term.energy(body.vertices.position),
+               area = Contacts(term).state_at(body.vertices.position).area;
   ASSERT_GT(energy, 0.0);
   SplitMix64 random(8);
   int cuts = 0;
@@ -322,7 +324,7 @@ TYPED_TEST(SkinOf, ACutAwayFromTheContactLeavesItsForces) {
     skin.apply(body, adapt(body, dissociate_face(body.map, d)));
     ++cuts;
     ASSERT_NEAR(term.energy(body.vertices.position), energy, 1e-15 * energy);
-    ASSERT_NEAR(term.state_at(body.vertices.position).area, area, 1e-14 * area);
+    ASSERT_NEAR(Contacts(term).state_at(body.vertices.position).area, area, 1e-14 * area);
   }
 }
 
@@ -335,9 +337,9 @@ TEST(SkinOfHexahedra, CarriesOnTheEdgesOfItsSidesToo) {
   ContactLaw law;
   law.pressure = 1000.0;
   law.depth = 0.01;
-  const ObstacleContact term({law}, {{HalfSpace{{0, 0, 0.01}, {0, 0, 1}}}}, skin.samples());
+  ObstacleContact term({law}, {{HalfSpace{{0, 0, 0.01}, {0, 0, 1}}}}, skin.samples());
   const double side = 4 * h * h / 6;
-  EXPECT_NEAR(term.state_at(body.vertices.position).area, 1.0 + 4 * side, 1e-14);
+  EXPECT_NEAR(Contacts(term).state_at(body.vertices.position).area, 1.0 + 4 * side, 1e-14);
   for (bool found = true; found;) {
     found = false;
     for (std::uint32_t k = 0; k < body.face_dart.size() && !found; ++k) {
@@ -350,7 +352,7 @@ TEST(SkinOfHexahedra, CarriesOnTheEdgesOfItsSidesToo) {
       found = true;
     }
   }
-  EXPECT_NEAR(term.state_at(body.vertices.position).area, 1.0 + 6 * side, 1e-14);
+  EXPECT_NEAR(Contacts(term).state_at(body.vertices.position).area, 1.0 + 6 * side, 1e-14);
 }
 
 TEST(SkinOfABody, IsStoredInItsOrder) {

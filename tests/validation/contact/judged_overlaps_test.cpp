@@ -40,7 +40,7 @@ struct TwoBoxes {
       if (is_second[k]) x[k] += by;
   }
   std::vector<JudgedOverlap> judged(bool within = false) const {
-    return judged_overlaps(*body->body_contact(), x, cells,
+    return judged_overlaps(*body->contacts().bodies, x, cells,
                            [&](std::uint32_t a, std::uint32_t b) { return within || (a < first) != (b < first); });
   }
 
@@ -85,7 +85,7 @@ TEST(JudgedOverlaps, AreNotFeltByAContactOfOthers) {
   const auto last = static_cast<std::uint32_t>(boxes.cells.size()) - boxes.first;
   std::size_t felt = 0, unfelt = 0;
   for (const JudgedOverlap& one :
-       judged_overlaps(*boxes.body->body_contact(), boxes.x, boxes.cells, [&](std::uint32_t a, std::uint32_t b) {
+       judged_overlaps(*boxes.body->contacts().bodies, boxes.x, boxes.cells, [&](std::uint32_t a, std::uint32_t b) {
          return (a < boxes.first || a >= last) != (b < boxes.first || b >= last);
        })) {
     const bool is_third = one.overlap.second >= last;

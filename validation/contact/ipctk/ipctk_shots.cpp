@@ -40,7 +40,7 @@ bool warns_of_speed(const Simulation& simulation) {
 
 IpctkShot record(const SceneFile& scene, double share) {
   Simulation simulation(scene);
-  const IpctkSurfaces surfaces(*simulation.body().body_contact());
+  const IpctkSurfaces surfaces(*simulation.body().contacts().bodies);
   IpctkShot made{.way = share, .question = surfaces.question(true)};
   std::size_t felt = 0;
   const auto look = [&] {
@@ -61,7 +61,7 @@ IpctkShot record(const SceneFile& scene, double share) {
 std::vector<IpctkShot> ipctk_shots(std::size_t count, std::uint64_t seed) {
   SplitMix64 random(seed);
   const Simulation at_rest(shot(0.01, 0.0, 0.0, 0.15, 0.0));
-  const double half = 0.5 * at_rest.body().body_contact()->least_altitude(at_rest.body().vertices().position);
+  const double half = 0.5 * at_rest.body().contacts().bodies->least_altitude(at_rest.body().vertices().position);
   constexpr double place = 0.03;
   std::vector<IpctkShot> shots;
   for (std::size_t k = 0; k < count; ++k) {

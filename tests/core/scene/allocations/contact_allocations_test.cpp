@@ -51,7 +51,7 @@ TEST(ContactAllocations, AreNotMadeInTheSteadyState) {
   run(simulation, 1500);
   const ContactDiagnostics touching = *simulation.diagnostics().contact;
   ASSERT_GT(touching.contacts, 20u);
-  ASSERT_GT(simulation.body().body_contact()->state_at(simulation.body().vertices().position).contacts, 10u);
+  ASSERT_GT(simulation.body().contacts().state_at(simulation.body().vertices().position).contacts, 10u);
   const std::size_t before = allocations;
   run(simulation, 200);
   EXPECT_EQ(allocations, before);

@@ -31,7 +31,7 @@ TEST(GalleryContact, TheBlockSlidesAsAPointWithFriction) {
   expect_place(scene, place_of(scene, "corner", true), centre + v * time + acceleration * (time * time / 2));
   // and it starts as deep as its weight needs
   const Simulation simulation(scene);
-  const ContactState state = simulation.body().contact()->state_at(simulation.body().vertices().position);
+  const ContactState state = simulation.body().contacts().state_at(simulation.body().vertices().position);
   EXPECT_NEAR(-state.force_on.at(0).dot(normal), simulation.body().mass() * presses, 1e-4 * presses);
 }
 

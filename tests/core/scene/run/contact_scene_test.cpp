@@ -68,14 +68,14 @@ TEST(ContactScene, RestsOnAFloorAtTheDepthThatItsWeightNeeds) {
     scene["integrator"] = integrator;
     Simulation simulation(parse(scene));
     run(simulation);
-    const ObstacleContact& contact = *simulation.body().contact();
+    const ObstacleContact& contact = *simulation.body().contacts().obstacles;
     const auto& x = simulation.body().vertices().position;
-    const ContactState state = contact.state_at(x);
+    const ContactState state = simulation.body().contacts().state_at(x);
     EXPECT_EQ(state.contacts, 9u + 8u) << integrator;
     EXPECT_NEAR(state.force_on[0].z(), -g, 1e-6) << integrator;
     double depth = 0.0;
     for (const SkinSample& sample : contact.samples()) {
-      const double z = ObstacleContact::place_of(sample, x).z();
+      const double z = ObstacleContact::place_of(sample, {x}).z();
       if (z < 0.0) depth -= sample.area * z / lower_area;
     }
     // 1 %: the lower side is not quite flat, and the mean of a square is not the square of a mean
@@ -190,17 +190,17 @@ TEST(ContactScene, FollowsACut) {
   scene["contact"]["obstacles"].push_back(Json::parse(R"({"sphere": {"centre": [0.05, 0.05, 0.13], "radius": 0.02}})"));
   Simulation simulation(parse(scene));
   simulation.watch_events(true);
-  const std::size_t whole = simulation.body().contact()->samples().size();
+  const std::size_t whole = simulation.body().contacts().obstacles->samples().size();
   run(simulation);
   EXPECT_EQ(simulation.body().counts().components, 2u);
   // of 26 vertices and 48 faces: a cut of 8 triangles gives both sides these, and the vertex in the middle twice, and
   // the 8 around it once more
   EXPECT_EQ(whole, 26u + 48u);
-  EXPECT_EQ(simulation.body().contact()->samples().size(), whole + 2 * 8 + 2 + 8);
+  EXPECT_EQ(simulation.body().contacts().obstacles->samples().size(), whole + 2 * 8 + 2 + 8);
   EXPECT_LE(simulation.jumps().energy, 1e-14);
   // areas at rest: six sides of 0.01 m^2, and two more
   double area = 0.0;
-  for (const SkinSample& sample : simulation.body().contact()->samples()) area += sample.area;
+  for (const SkinSample& sample : simulation.body().contacts().obstacles->samples()) area += sample.area;
   EXPECT_NEAR(area, 8 * 0.01, 1e-14);
 }
 
@@ -250,7 +250,7 @@ TEST(ContactScene, AccountsForFloorsThatMoveWhereAStepIsDivided) {
   while (divided.steps_done() < divided.step_count()) {
     ASSERT_FALSE(divided.advance());
     // the floor has risen at 0.5 m/s to its place at the end of the last part
-    const double depth = divided.body().contact()->penetration_in(0, {0, 0, 0}).depth;
+    const double depth = divided.body().contacts().obstacles->penetration_in(0, {0, 0, 0}).depth;
     EXPECT_NEAR(depth, 0.5 * divided.time(), 1e-15);
   }
   run(fine);
@@ -546,7 +546,7 @@ TEST(ContactScene, SlidesOverASeamOfTwoBoxesAsOverOne) {
           }
           EXPECT_LE(place, 1e-13) << integrator << ' ' << speed << ' ' << beyond << ' ' << rubs;
           EXPECT_LE(velocity, 1e-12) << integrator << ' ' << speed << ' ' << beyond << ' ' << rubs;
-          const auto& force_on = over_three.body().contact()->state_at(three.position).force_on;
+          const auto& force_on = over_three.body().contacts().state_at(three.position).force_on;
           EXPECT_LT(force_on[1].z(), 0.0);  // the middle one is under the block
         }
       }
@@ -594,8 +594,8 @@ TEST(ContactScene, PutsItsObstaclesBackAfterADivergence) {
   std::optional<Divergence> divergence;
   while (!divergence && simulation.steps_done() < simulation.step_count()) divergence = divergence_of_step(simulation);
   ASSERT_TRUE(divergence);
-  const Obstacle& floor = simulation.body().contact()->obstacles()[0];
-  const Penetration found = simulation.body().contact()->penetration_in(0, {0, 0, 0});
+  const Obstacle& floor = simulation.body().contacts().obstacles->obstacles()[0];
+  const Penetration found = simulation.body().contacts().obstacles->penetration_in(0, {0, 0, 0});
   EXPECT_NEAR(found.depth, floor.moved_by(simulation.time()).z(), 1e-12);
 }
 

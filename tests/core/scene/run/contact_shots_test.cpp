@@ -37,10 +37,11 @@ struct Shots {
 Shots shoot(int count) {
   Shots shots;
   SplitMix64 random(11);
-  const double place = 0.03, least = Simulation(shot(1.0, 0, 0, 0))
-                                         .body()
-                                         .body_contact()
-                                         ->least_altitude(Simulation(shot(1.0, 0, 0, 0)).body().vertices().position);
+  const double place = 0.03,
+               least = Simulation(shot(1.0, 0, 0, 0))
+                           .body()
+                           .contacts()
+                           .bodies->least_altitude(Simulation(shot(1.0, 0, 0, 0)).body().vertices().position);
   for (int k = 0; k < count; ++k) {
     // a step of 0.1 to 3 times half of the least altitude
     const double way = 0.1 * std::pow(30.0, 0.5 + 0.5 * random.next_signed()), speed = way * 0.5 * least / h;

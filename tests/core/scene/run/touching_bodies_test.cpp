@@ -91,7 +91,7 @@ TEST(TouchingBodies, AreNotPushedSidewaysWhereTheySlideOverASeam) {
       for (const std::vector<int>& cells : {std::vector<int>{5, 5}, {5, 1, 1, 3}}) {
         Simulation simulation(parse(over_held_bodies(integrator, speed, cells)));
         const VertexColumns& vertices = simulation.body().vertices();
-        const BodyContact& contact = *simulation.body().body_contact();
+        const BodyContact& contact = *simulation.body().contacts().bodies;
         std::size_t near = 0;
         while (simulation.steps_done() < simulation.step_count()) {
           ASSERT_FALSE(simulation.advance());
@@ -99,7 +99,7 @@ TEST(TouchingBodies, AreNotPushedSidewaysWhereTheySlideOverASeam) {
             const SkinSample& sample = contact.samples()[touch.sample];
             if (vertices.fixed[sample.nodes[0]] != 0) continue;
             EXPECT_LE(touch.depth * touch.normal.head<2>().norm(), 1e-11) << integrator << ' ' << speed;
-            const double x = ObstacleContact::place_of(sample, vertices.position).x();
+            const double x = ObstacleContact::place_of(sample, {vertices.position}).x();
             near += std::abs(x - 0.052) < touch.depth || std::abs(x - 0.102) < touch.depth ? 1 : 0;
           }
         }
@@ -172,8 +172,9 @@ TEST(TouchingBodies, CountTheEnergyOfContactsOnceAndApartFromTheElasticOne) {
   scene["contact"]["obstacles"] = Json::parse(R"([{"plane": {"point": [0, 0, 0.0005], "normal": [0, 0, 1]}}])");
   const Simulation simulation(parse(scene));
   const auto& x = simulation.body().vertices().position;
-  const ContactState floor = simulation.body().contact()->state_at(x);
-  const BodyContactState bodies = simulation.body().body_contact()->state_at(x);
+  const Contacts contacts = simulation.body().contacts();
+  const ContactState floor = Contacts(contacts.obstacles).state_at(x),
+                     bodies = Contacts(nullptr, contacts.bodies).state_at(x);
   const Diagnostics d = simulation.diagnostics();
   EXPECT_GT(floor.energy, 0.0);
   EXPECT_GT(bodies.energy, 0.0);
@@ -261,7 +262,7 @@ TEST(TouchingBodies, KnowWhichBodyWhatIsLeftOfACutIsOf) {
     {"at": 0, "dissociate": {"plane": {"point": [0.05, 0, 0], "normal": [1, 0, 0]}}},
     {"at": 0, "refine": {"cells": {"random": {"count": 5, "seed": 2}}, "at": "centre"}}])");
   const Simulation simulation(parse(scene));
-  const SkinSolids& solids = simulation.body().body_contact()->solids();
+  const SkinSolids& solids = simulation.body().contacts().bodies->solids();
   std::size_t of[2] = {0, 0};
   for (const SkinTetrahedron& t : solids.tetrahedra()) {
     // vertices made by refinement have no point of the mesh: one that has
