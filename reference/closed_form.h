@@ -50,7 +50,7 @@ DumbbellState swing(const Dumbbell& body, const DumbbellState& start, double t);
 double chain_omega_fixed(int n, double stiffness, double mass, int j);
 double chain_omega_free(int n, double stiffness, double mass, int j);
 
-/// The same with one end fixed and the other free: n springs, j = 1 .. n.
+/// Of a chain with one end fixed and the other free: n springs, j = 1 .. n.
 double chain_omega_fixed_free(int n, double stiffness, double mass, int j);
 
 /// Displacement of mass i = 1 .. n of the chain in its mode j, up to a factor; the fixed end comes first.

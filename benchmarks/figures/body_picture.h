@@ -25,7 +25,7 @@ struct DrawnFacet {
   std::uint32_t colour = 0;              // 0xrrggbb
 };
 
-/// The same bodies turned so that `up` is z, which pictures show upwards; unchanged if `up` is z already, or zero.
+/// The bodies turned so that `up` is z, which pictures show upwards; unchanged if `up` is z already, or zero.
 std::vector<Frame> upright(std::span<const Frame> panels, const Eigen::Vector3d& up);
 
 /// The visible facets of a body, from the front, a little from the right and above, z upwards: its boundary, the

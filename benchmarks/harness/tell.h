@@ -18,7 +18,7 @@ void tell(std::FILE* to, fmt::format_string<T...> format, T&&... arguments) {
   fmt::print(to, "{}", terminal_lines(fmt::format(format, std::forward<T>(arguments)...)));
 }
 
-/// The same to standard output.
+/// Prints to standard output.
 template <class... T>
 void tell(fmt::format_string<T...> format, T&&... arguments) {
   tell(stdout, format, std::forward<T>(arguments)...);

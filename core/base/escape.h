@@ -12,7 +12,7 @@ namespace dartboard {
 /// and bytes that are not UTF-8 are spelt out: "\n", "\x1b", "\u{202e}". The functions below begin with it.
 std::string terminal_text(std::string_view text);
 
-/// The same for a text of several lines, whose line breaks stay.
+/// Several lines for a terminal: line breaks stay.
 std::string terminal_lines(std::string_view text);
 
 /// A string constant of gnuplot, with its single quotes: in double quotes gnuplot runs any text between backquotes.
@@ -33,7 +33,7 @@ std::string csv_field(std::string_view text);
 /// Text within a line or a cell of a table of GitHub's Markdown: no link, emphasis, code, formula, tag or bar.
 std::string markdown_text(std::string_view text);
 
-/// The same where it begins a line: no heading, quotation, list or rule either.
+/// Text that begins a line: no heading, quotation, list or rule either.
 std::string markdown_line(std::string_view text);
 
 /// Code within a line of Markdown, its backquotes included.

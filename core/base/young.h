@@ -12,7 +12,7 @@ namespace dartboard {
 
 /// The number of the first cell whose edges alone do not hold its shape: neither a tetrahedron nor a triangle.
 std::optional<std::size_t> first_loose_cell(const Mesh& mesh);
-/// The same among these cells.
+/// The number of the first such cell among these.
 std::optional<std::size_t> first_loose_cell(const Mesh& mesh, std::span<const std::uint32_t> cells);
 
 /// The stiffness [N/m] of the springs of a Young's modulus, a mean over the edges of all cells: that of the edge of
@@ -25,7 +25,7 @@ std::optional<std::size_t> first_loose_cell(const Mesh& mesh, std::span<const st
 /// cost    a pass over the mesh
 /// source  Van Gelder, Journal of Graphics Tools 3(2), 1998: k = E V / l^2; the averages by integration over directions
 double mean_stiffness(const Mesh& mesh, double young);
-/// The same over the edges of these cells; numbers from the number of cells on are links.
+/// A mean over the edges of these cells; numbers from the number of cells on are links.
 double mean_stiffness(const Mesh& mesh, double young, std::span<const std::uint32_t> cells);
 
 }  // namespace dartboard

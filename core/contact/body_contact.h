@@ -109,7 +109,7 @@ class BodyContact final : public ForceTerm {
   std::span<const BodyTouch> out_of_reach() const { return lost_; }
   /// The number of candidates there that were ignored because they are turned inside out.
   std::size_t inverted() const { return inverted_; }
-  /// The same two by testing every sample with every tetrahedron: the oracle of lists.
+  /// Contacts and samples out of reach by testing every sample with every tetrahedron: the oracle of lists.
   /// cost  O(samples times tetrahedra)
   std::vector<BodyTouch> touching_by_brute_force(const StagePlaces& at, std::vector<BodyTouch>* out_of_reach) const;
 
@@ -137,7 +137,7 @@ class BodyContact final : public ForceTerm {
   /// As ObstacleContact::frequency_squared, with both sides: if every sample were at this share of the depth of its
   /// law, in a surface whose samples have the same area as its own, or the largest sample of all were on one vertex.
   double frequency_squared(std::span<const double> inverse_mass, double share_of_depth) const;
-  /// The same for the contacts at x: an upper bound of their present contribution.
+  /// An upper bound of the present contribution of the contacts at x.
   double frequency_squared_at(std::span<const Eigen::Vector3d> x, std::span<const double> inverse_mass) const;
 
   /// The friction during a step, in all functions below.

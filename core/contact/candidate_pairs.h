@@ -83,8 +83,8 @@ class CandidatePairs {
   /// The number of the last call. Where two calls of the same skin and nothing between them both follow, the second
   /// has the next number, and knows the ways from the one to the other; otherwise a number is left out.
   std::uint64_t call() const { return call_; }
-  /// [m] At least the way of a node of a tetrahedron in the last call that followed, relative to a point that is the
-  /// same for all; infinite if one of its places was not a number.
+  /// [m] An upper bound of the displacement of a node of a tetrahedron since the previous call that followed, up to one
+  /// common translation; infinite if one of its positions was not a number.
   double way_of(std::uint32_t node) const { return ways_[node]; }
   std::span<const Row> rows() const { return rows_; }
   std::span<const std::uint32_t> tetrahedra() const { return tetrahedra_; }

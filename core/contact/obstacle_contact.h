@@ -72,7 +72,7 @@ class ObstacleContact final : public ForceTerm {
   static Eigen::Vector3d place_of(const SkinSample& sample, const StagePlaces& at);
   /// The penetration of the place y into an obstacle at its present place, or into the blocks that it is joined with.
   Penetration penetration_in(std::uint32_t obstacle, const Eigen::Vector3d& y) const;
-  /// The same; false, and `found` is not set, if y is not in contact with it: a few comparisons.
+  /// Finds it; false, and `found` is not set, if y is not in contact with it: a few comparisons.
   bool find_penetration(std::uint32_t obstacle, const Eigen::Vector3d& y, Penetration& found) const;
   /// Are both among the same joined blocks?
   bool are_joined(std::uint32_t a, std::uint32_t b) const {

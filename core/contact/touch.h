@@ -41,7 +41,7 @@ class HeldVertices {
 inline double mobility_of(std::uint32_t i, std::span<const double> inverse_mass, const HeldVertices& held) {
   return held.is_still(i) ? 0.0 : inverse_mass[i];
 }
-/// The same along the direction of the force.
+/// The acceleration per force along the direction of the force.
 inline double mobility_along(std::uint32_t i, const Eigen::Vector3d& unit, std::span<const double> inverse_mass,
                              const HeldVertices& held) {
   const double all = mobility_of(i, inverse_mass, held);
@@ -96,7 +96,7 @@ struct ContactSite {
     for (std::size_t k = 0; k < count; ++k) sum += weights[k] * weights[k] * mobility_of(nodes[k], inverse_mass, held);
     return sum;
   }
-  /// The same along the direction of the force.
+  /// The acceleration of the difference per force along the direction of the force.
   double mobility_along(const Eigen::Vector3d& unit, std::span<const double> inverse_mass,
                         const HeldVertices& held) const {
     double sum = 0.0;

@@ -74,7 +74,7 @@ class WaysOut {
   /// rounding; the triangle is `none` if none is in reach.
   /// pre  the candidates are those at these places; at most once for each sample until they are at others
   bool find(const Eigen::Vector3d& y, const StagePlaces& at, BodyTouch& touch);
-  /// The same with nothing known: the oracle of ways that are followed.
+  /// Fill it with nothing known: the oracle of ways that are followed.
   bool search(const Eigen::Vector3d& y, const StagePlaces& at, BodyTouch& touch);
 
   /// Set the groups that do not move.

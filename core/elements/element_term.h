@@ -27,7 +27,7 @@ struct CornerLines {
   const Eigen::Vector3d& operator()(std::size_t a) const { return to[a]; }
 };
 
-/// A Gauss point: the gradients [1/m] of the functions of the corners, by the d coordinates of the cell at rest.
+/// A Gauss point: the gradients [1/m] of the shape functions by the d coordinates of the cell at rest.
 template <int d, std::size_t most>
 struct GaussPoint {
   std::size_t count;  // of corners
@@ -49,9 +49,9 @@ struct GaussPoint {
 ///
 /// Laws has laws_[c] with energy, change, stress, hessian, modulus and, by a function of its own, discrete_stress.
 /// Cells has `d`, `most` corners of a cell, name(), size(), nodes(c), and for_each_point(laws, c, f), which calls
-/// f(point, size) with points as GaussPoint. Where it has add_stresses_in_lanes(law, c, lines, sums), that adds those
-/// of the first points, several at a time, and returns their number, from which for_each_point(laws, c, f, first) goes
-/// on.
+/// f(point, size) with points as GaussPoint. An optional add_stresses_in_lanes(law, c, lines, sums) adds the stresses
+/// of the first points, several at a time (SIMD), and returns how many; for_each_point(laws, c, f, first) handles the
+/// rest.
 template <class Cells, class Laws>
 class ElementTerm : public ForceTerm {
  public:

@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Gradients = std::array<Vector2d, 4>;
 
-/// A rule of integration: by point the gradients of the functions of the corners by the cell's own coordinates. Every
+/// A quadrature rule: at each point the gradients of the shape functions in reference coordinates. Every
 /// point has the same weight.
 struct Rule {
   std::array<Gradients, 4> gradients;

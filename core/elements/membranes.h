@@ -49,7 +49,7 @@ struct TriangleColumns {
     return std::span<const PlaneInverse, 1>(&shape[c], 1);
   }
 };
-/// The same for a surface of triangles and quadrilaterals.
+/// The columns of a surface of triangles and quadrilaterals.
 struct MembraneColumns {
   const std::vector<SolidNodes>& nodes;
   const std::vector<MembraneShape>& shape;

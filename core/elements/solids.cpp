@@ -17,7 +17,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Gradients = std::array<Vector3d, 8>;  // or lines, speeds and forces, by corner
 
-/// Gauss points of a kind of cell: gradients of the functions of its corners by its own coordinates, and weights.
+/// The quadrature rule of a kind of cell: gradients of the shape functions in reference coordinates, and weights.
 struct Rule {
   std::vector<Gradients> gradients;
   std::vector<double> weights;
@@ -92,7 +92,7 @@ const Rule& rule_of(CellKind kind) {
   }
 }
 
-/// The gradients [1/m] of the functions of the corners at Gauss point q, at rest.
+/// The gradients [1/m] of the shape functions at Gauss point q, at rest.
 void gradients_at(const SolidShape& shape, const Rule& rule, std::size_t q, std::size_t count, Gradients& g) {
   for (std::size_t a = 0; a < count; ++a) g[a] = shape.inverse[q].transpose() * rule.gradients[q][a];
 }

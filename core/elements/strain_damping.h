@@ -28,7 +28,7 @@ struct DampedMaterial {
   double per_mass;    // [m^3/kg], the volume of a kilogram
 };
 
-/// The same for the cells of a body.
+/// The damped materials of a body's cells.
 class DampedMaterials {
  public:
   explicit DampedMaterials(const CellMaterials& materials) : materials_(materials) {

@@ -90,7 +90,7 @@ class OneLaw {
   double per_mass_;
 };
 
-/// The same in a body of several materials.
+/// The laws and the volumes of a kilogram by cell, in a body of several materials.
 class LawOfCell {
  public:
   explicit LawOfCell(const CellMaterials& materials) : materials_(materials) {

@@ -100,7 +100,7 @@ class ForceTerm {
   virtual void add_forces(const StagePlaces& at, std::span<Eigen::Vector3d> force) const = 0;
   /// Can several threads add its forces, each those of some pieces at some vertices?
   virtual bool adds_in_parts() const { return false; }
-  /// The same of a run of pieces at the vertices within `own` alone.
+  /// Adds the forces of a run of pieces at the vertices within `own` alone.
   /// pre  it adds in parts; the vertices of a whole run are all within `own`
   virtual void add_forces_in_part(const StagePlaces&, PieceRun, VertexRange, std::span<Eigen::Vector3d>) const {}
   /// force += the discrete gradient between x and x + 2 t w, `at` being half way: its work is the energy's change.
@@ -119,7 +119,7 @@ class ForceTerm {
 
   /// The stiffness of every piece, exact or projected to be positive semidefinite.
   virtual void for_each_tangent(const StagePlaces& at, Compression compression, const VisitTangent& visit) const = 0;
-  /// The same for a constant matrix at least as stiff as the term near rest, each block a multiple of the identity.
+  /// The stiffness of a constant matrix at least as stiff as the term near rest, each block a multiple of the identity.
   virtual void for_each_constant_tangent(const VisitTangent& visit) const = 0;
 
   /// The contribution of a piece at each of its vertices: its virial and the growth of its volume, over their number.

@@ -25,7 +25,7 @@ struct Spring {
   }
 };
 
-/// The same where no spring is damped.
+/// A spring where none is damped.
 struct UndampedSpring {
   double rest_length;  // [m]
   double stiffness;    // [N/m]

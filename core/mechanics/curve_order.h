@@ -27,7 +27,7 @@ std::vector<std::uint32_t> order_of_mesh(const Mesh& mesh);
 /// this order.
 std::size_t count_wide_cells(const Mesh& mesh, std::span<const std::uint32_t> order);
 
-/// The same problem, its cells in this order.
+/// The problem with its cells in this order.
 Problem in_order(const Problem& problem, std::span<const std::uint32_t> order);
 
 }  // namespace dartboard

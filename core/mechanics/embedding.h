@@ -30,7 +30,7 @@ class CellEmbedding {
     at_[Map::template slot<i>(cell.dart)] = number;
   }
 
-  /// The same for a cell whose places, one dart for each slot<i>, are known (for_each_place_of).
+  /// Attaches a number to a cell whose places, one dart for each slot<i>, are known (for_each_place_of).
   template <class Darts>
   void attach_places(const Map& map, const Darts& places, std::uint32_t number) {
     static_assert(held == Held::by_every_dart);

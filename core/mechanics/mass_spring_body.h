@@ -69,7 +69,7 @@ struct MassSpringBody {
   /// Mass of a vertex [kg]: its share of each incident cell, eq. (1), on the rest shape. Summed in the order of the
   /// cells' darts, so that the bits depend neither on the order of the walk nor on the numbers of the cells.
   double mass_of(Vertex v) const;
-  /// The same for a vertex of which at least one dart in each of its cells is given.
+  /// Mass of a vertex of which at least one dart in each of its cells is given.
   double mass_of(std::span<const Dart> darts) const;
   /// Volume at rest of a vertex [m^3] (area): the same share of each incident cell.
   double volume_of(Vertex v) const;
@@ -81,7 +81,7 @@ struct MassSpringBody {
   }
   /// The spring of an edge: the stiffness and damping of its incident cells, as springs in parallel.
   Spring spring_of(Edge e, double rest_length) const;
-  /// The same for an edge of which at least one dart in each of its cells is given.
+  /// The spring of an edge of which at least one dart in each of its cells is given.
   Spring spring_of(std::span<const Dart> darts, double rest_length) const;
 
   /// Positions and velocities by mesh point.

@@ -34,7 +34,7 @@ std::span<const MeshFormatInfo> mesh_formats();
 ///         InputError as weld_points
 LoadedMesh read_mesh(const std::filesystem::path& path, const MeshReading& reading = {});
 
-/// The same for a text in memory; `name` stands for the file in errors. A TetGen text is the .node file followed by
+/// Reads a text in memory; `name` stands for the file in errors. A TetGen text is the .node file followed by
 /// the .ele file.
 LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name,
                       const MeshReading& reading = {});

@@ -117,7 +117,7 @@ std::vector<std::uint32_t> points_of_several_sets(JoinedCells& cells) {
   return several;
 }
 
-/// The same for edges.
+/// The edges that several sets of joined cells share.
 std::vector<Pair> edges_of_several_sets(JoinedCells& cells) {
   PointSets<2> met(cells.mesh.points.size(), cells.edges.count());
   std::vector<Pair> several;

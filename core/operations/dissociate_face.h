@@ -19,12 +19,12 @@ namespace dartboard {
 template <class Map>
 TopologyChange dissociate_face(Map& map, Dart d);
 
-/// The same exactly as in appendix A: every vertex and edge is tested by walking its whole orbit. This is the oracle of
+/// Dissociates exactly as in appendix A: every vertex and edge is tested by walking its whole orbit. The oracle of
 /// `dissociate_face`.
 template <class Map>
 TopologyChange dissociate_face_by_orbits(Map& map, Dart d);
 
-/// The same in a surface: separate the two faces that share the edge of `d` (Fig. 6 and 7).
+/// Separates the two faces of a surface that share the edge of `d` (Fig. 6 and 7).
 TopologyChange dissociate_edge(Map2& map, Dart d);
 
 extern template TopologyChange dissociate_face(Map3&, Dart);

@@ -32,7 +32,7 @@ inline bool is_inside(double distance, double of, double thickness) {
   return distance >= -std::max(thickness, rounding * std::abs(of));
 }
 
-/// The same of a plane: inside is where the normal points, which need not be a unit vector.
+/// Whether a point is inside of a plane: where the normal points, which need not be a unit vector.
 inline bool is_in_front(const Eigen::Vector3d& x, const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                         double thickness) {
   const double size = std::max(x.lpNorm<Eigen::Infinity>(), point.lpNorm<Eigen::Infinity>());

@@ -24,7 +24,7 @@ class CellMaterials {
   CellMaterials(const Material& one, const std::vector<Material>& several, const std::vector<MaterialNumber>& of_cell)
       : one_(&one), several_(several.empty() ? nullptr : &several), of_cell_(&of_cell) {}
 
-  /// The same materials for other cells.
+  /// These materials for other cells.
   CellMaterials of_cells(const std::vector<MaterialNumber>& of_cell) const {
     CellMaterials other = *this;
     other.of_cell_ = &of_cell;

@@ -15,7 +15,7 @@ namespace dartboard {
 template <class Map>
 std::string check(const Map& map);
 
-/// The same for one dart.
+/// What is wrong at one dart.
 template <class Map>
 std::string check_dart(const Map& map, Dart d);
 

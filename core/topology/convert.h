@@ -9,8 +9,8 @@
 
 namespace dartboard {
 
-/// The same map in general storage, dart for dart under the same numbers (dead ones too, whose slots are used again in
-/// another order). For a tetrahedral map when an operation needs other cells.
+/// A copy of the map in general storage, dart for dart under the same numbers (dead ones too, whose slots are used
+/// again in another order). For a tetrahedral map when an operation needs other cells.
 ///
 /// cost    O(darts)
 Map3 to_general(const TetMap& map);

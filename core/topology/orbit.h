@@ -84,7 +84,7 @@ bool walk(const Map& map, Involutions set, Dart d, Mark& visited, F&& f) {
   return stopped;
 }
 
-/// The same with one visit per representative.
+/// Walks an orbit with one visit per representative.
 template <class Map, class F>
 void walk_places(const Map& map, Involutions set, Dart d, Mark& visited, F&& f) {
   if constexpr (!Map::tetrahedral) {

@@ -54,7 +54,7 @@ std::size_t count_joined_slots(const TetMap& map) {
   return slots.count();
 }
 
-/// The same as of any map, without a walk round each cell.
+/// Counts the cells of a tetrahedral map without a walk round each cell.
 void count_cells_of(const TetMap& map, MapSummary& s) {
   const std::size_t slots = map.capacity() / 24, live = map.dart_count() / 24, dead = slots - live;
   const TetTable& table = map.storage();

@@ -258,7 +258,7 @@ void ComponentLabels::search(const Body<Map>& body, std::size_t first_seed, std:
   part(largest, report);
 }
 
-/// The same from all cells of an old component: they are looked at in the order of their numbers, and so in that of
+/// Finds the parts from all cells of an old component: in the order of their numbers, and so in that of
 /// memory, which takes a fraction of the time of a search for each. Parts get labels by their sizes, the least first;
 /// of two largest the one with the lowest cell keeps its name.
 template <class Map>

@@ -1,5 +1,5 @@
 #pragma once
-// A judge of whether a step of an integrator is that of its scheme: by other code, other forces and more digits.
+// Checks one step of an integrator against an independent implementation of its scheme in extended precision.
 
 #include <memory>
 #include <string>

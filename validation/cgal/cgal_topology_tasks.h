@@ -40,7 +40,7 @@ struct TopologyTask {
 /// only way in CGAL; is_valid() checks them too, and so does `build` (vertices only, like ours).
 std::vector<TopologyTask> cgal_topology_tasks(const TopologyWork& work);
 
-/// The same without attributes: smaller darts and less to check. It cannot report what an unsew dissociates.
+/// Tasks without attributes: smaller darts and less to check. They cannot report what an unsew dissociates.
 std::vector<TopologyTask> cgal_bare_topology_tasks(const TopologyWork& work);
 
 /// The heap memory of the map of `mesh` with a numbered attribute on each vertex and edge.

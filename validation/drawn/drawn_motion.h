@@ -50,16 +50,16 @@ const Quantity& last_named(const DrawnMotion& motion, std::string_view name);
 DrawnMotion run_drawn(const nlohmann::ordered_json& scene, const std::filesystem::path& folder,
                       const DrawnRunOptions& options = {});
 
-/// The same, of a run in other units: lengths, times and masses are 2^length, 2^time and 2^mass times as large.
+/// The motion, of a run in other units: lengths, times and masses are 2^length, 2^time and 2^mass times as large.
 DrawnMotion in_units(DrawnMotion motion, const Dimensions& powers);
-/// The same, of a run in other axes: the old y, z and x are the new x, y and z.
+/// The motion, of a run in other axes: the old y, z and x are the new x, y and z.
 DrawnMotion in_turned_axes(DrawnMotion motion);
-/// The same, of a run seen in a mirror across x.
+/// The motion, of a run seen in a mirror across x.
 DrawnMotion in_mirror(DrawnMotion motion);
 
-/// The same, of a run in a frame in which the origin is at a place and moves.
+/// The motion, of a run in a frame in which the origin is at a place and moves.
 DrawnMotion out_of_moving_frame(DrawnMotion motion, const Eigen::Vector3d& place, const Eigen::Vector3d& velocity);
-/// The same, with the vertices in the order of other numbers: `number` has that of each point.
+/// The motion, with the vertices in the order of other numbers: `number` has that of each point.
 DrawnMotion in_order_of(DrawnMotion motion, const std::vector<std::size_t>& number);
 
 /// The first difference of bits, in words; none where all are equal. NaN equals NaN.

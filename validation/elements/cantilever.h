@@ -25,7 +25,7 @@ struct CantileverAnswers {
 
 /// From a mesh of `across` cubes of six tetrahedra across the beam.
 CantileverAnswers quadratic_cantilever(int across, double poisson);
-/// The same with the stiffness of a model's own forces and masses at the vertices, as it is simulated; of tetrahedra,
+/// With the stiffness of a model's own forces and masses at the vertices, as it is simulated; of tetrahedra,
 /// or of the cubes as hexahedra.
 CantileverAnswers cantilever_of(Model model, int across, double poisson, CellKind cells = CellKind::tetrahedron);
 

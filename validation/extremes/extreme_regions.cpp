@@ -18,7 +18,7 @@ struct Regions {
   SpringColumns body(std::string_view scene) const { return elastic_body(scene, one, other, thickness); }
 };
 
-/// The same with the damping ratio `zeta` in the other region, as far as the highest frequency is its own.
+/// The regions with the damping ratio `zeta` in the other one, as far as the highest frequency is its own.
 Regions damped_there(Regions regions, std::string_view scene, double zeta) {
   const double time = 2 * zeta / highest_frequency(regions.body(scene));
   (regions.other.model == Model::springs ? regions.other.damping : regions.other.damping_time) = time;

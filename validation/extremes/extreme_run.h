@@ -66,7 +66,7 @@ double highest_frequency(const SpringColumns& body);
 
 /// A body displaced by up to `size` edges and moving as fast as a quarter of its highest frequency allows.
 SpringColumns in_motion(SpringColumns body, double size);
-/// The same for an extreme body.
+/// An extreme body that moves like that.
 SpringColumns moving_body(std::string_view scene, double size = 0.01);
 
 /// A run with steps of theta / omega_max.

@@ -37,7 +37,7 @@ class StepEvidence {
   void before(const SpringSystem& system, Motion motion, double h);
   void after(Motion motion);
   void restarted();
-  /// The same where the elements are other ones than before.
+  /// Restarted with other elements than before.
   void changed_to(KnownElements elements) {
     elements_ = elements;
     restarted();

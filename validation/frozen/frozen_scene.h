@@ -55,7 +55,7 @@ struct FrozenScene {
 /// throws  InputError "/events/3/...: ..." as SimulatedBody::make_ready, DrivenVertices and AppliedForces; SolverError
 ///         if the motion up to an event cannot be found
 FrozenScene freeze(const SceneFile& file, const Problem& problem);
-/// The same for a body that starts from other positions than those of its mesh, where it is at rest: [m] by mesh point,
+/// Freezes a body that starts from other positions than those of its mesh, where it is at rest: [m] by mesh point,
 /// or empty. Its events look up what they refer to in the body at rest.
 ///
 /// throws  also InputError for positions that are not as many as the points

@@ -31,7 +31,7 @@ std::span<const WrongIntegrator> wrong_integrators();
 /// throws  InputError as make_integrator does
 std::unique_ptr<Integrator> make_wrong(Wrong kind, std::string_view integrator);
 
-/// The same as an entry of the table of integrators, for studies that iterate over it.
+/// An entry for the table of integrators, for studies that iterate over it.
 IntegratorEntry wrong_entry(Wrong kind, std::string_view integrator);
 
 }  // namespace dartboard

@@ -18,7 +18,7 @@ struct ConservedDrift {
   std::string diagnosis;  // of the step that failed
 };
 ConservedDrift measure_energy_drift(std::uint64_t steps, double h_omega);
-/// The same by another method.
+/// The drift of another method.
 ConservedDrift measure_energy_drift(std::uint64_t steps, double h_omega, Integrator& integrator);
 
 /// Backward Euler on the paper's body with a tenth of its tetrahedra 10^4 times stiffer, damped: a matrix factored for

@@ -31,7 +31,7 @@ struct RandomSceneOptions {
 /// the start. `about` says which.
 nlohmann::ordered_json random_scene_file(std::uint64_t seed, std::uint64_t number,
                                          const RandomSceneOptions& options = {});
-/// The same scene, read.
+/// The scene of that file, read.
 TradeoffScene random_scene(std::uint64_t seed, std::uint64_t number, const RandomSceneOptions& options = {});
 
 }  // namespace dartboard

@@ -63,7 +63,7 @@ void look_at_networks(const TradeoffScene& scene, SceneFeatures& f) {
   f.damping_ratio += 0.5 * start.viscosity / f.omega_low;
 }
 
-/// The same for any body, from the limits of its step.
+/// The features of any body, from the limits of its step.
 void look_at_limits(SceneFeatures& f) {
   for (const StableStep& limit : f.limits) {
     f.omega_low = std::max(f.omega_low, limit.lower);

@@ -27,7 +27,7 @@ class SceneStage {
   SpringSystem system() const;
   Motion motion();
   PointState state() const;
-  /// The same at the end of a step, with the velocities that driven vertices have at that time [s].
+  /// The state at the end of a step, with the velocities that driven vertices have at that time [s].
   PointState state_at(double time);
   /// The next event takes place. All that was computed from the system before has to be renewed.
   void pass_event();
@@ -80,9 +80,8 @@ struct TimedRun {
 /// before an event of the same time. A run ends with the first step that is not ok. The steps and the events are timed;
 /// the making of the body before them is not.
 ///
-/// throws  InputError for a tolerance with an integrator that cannot choose its steps, or where steps have to be equal; for a
-///         setting
-///         without steps and tolerance; and for `end_of_step` with other numbers of steps
+/// throws  InputError for a tolerance with an integrator that cannot choose its steps, or where steps have to be equal;
+///         for a setting without steps and tolerance; and for `end_of_step` with other numbers of steps
 TimedRun run_timed(const TradeoffScene& scene, Integrator& integrator, const RunSetting& setting, const CpuClock& clock,
                    const RunLimits& limits = {});
 

@@ -52,7 +52,7 @@ TradeoffScene make_tradeoff_scene(std::string_view name, const std::filesystem::
 
 /// The motion of a frozen scene, with its file's name and its sentence about the scene.
 TradeoffScene tradeoff_scene(FrozenScene frozen, std::size_t checkpoints);
-/// The same for a scene made by a program.
+/// The motion of a scene made by a program.
 ///
 /// throws  as freeze
 TradeoffScene tradeoff_scene(std::string what, const TableScene& scene);

@@ -18,7 +18,7 @@ namespace dartboard {
 /// Numbers have 14 digits: CalculiX reads twenty characters of each.
 /// throws  InputError for another kind of cell than tetrahedra or hexahedra, and for both together
 std::string calculix_deck(const StaticProblem& problem);
-/// The same with C3D10, quadratic tetrahedra whose nodes are those of the reference: forces are the reference's, one
+/// A deck of C3D10, quadratic tetrahedra whose nodes are those of the reference: forces are the reference's, one
 /// for each of its nodes.
 std::string calculix_deck(const StaticProblem& problem, const reference::QuadraticSolid& solid,
                           const std::vector<std::uint32_t>& held, const Eigen::VectorXd& force);

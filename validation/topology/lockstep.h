@@ -32,7 +32,7 @@ using MakeTwins = std::function<std::vector<std::unique_ptr<MapTwin>>(const Mesh
 /// Map2 or Map3, and TetMap too for tetrahedral storage.
 std::vector<std::unique_ptr<MapTwin>> core_twins(const Mesh& mesh, ScriptStorage storage);
 
-/// The same map in several carriers, to which operations are applied one after the other.
+/// One map in several carriers, to which operations are applied one after the other.
 ///
 /// After each operation: legality verdicts; alphas of all touched darts; cells of all touched darts, as sets; cells per
 /// dimension that came or went, against what one operation can change; validity around the touched darts of our maps.

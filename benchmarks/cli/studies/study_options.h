@@ -27,7 +27,7 @@ struct StudyTexts {
 };
 void add_study_options(CLI::App& verb, StudyOptions& options, const StudyTexts& texts);
 
-/// The same for options with more members than those.
+/// Adds options with more members than those.
 template <class Options = StudyOptions>
 std::shared_ptr<Options> study_options(CLI::App& verb, const StudyTexts& texts) {
   auto options = std::make_shared<Options>();

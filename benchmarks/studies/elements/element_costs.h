@@ -34,7 +34,7 @@ struct ElementCostPlan {
   int process = 0;
 };
 
-/// Take turns in this process, and report every sample.
+/// Time all models interleaved in this process, and report every sample.
 void measure_element_costs(const ElementCostPlan& plan, const std::function<void(const Sample&)>& sink);
 
 /// Springs, tetrahedra of each law, and hexahedra, from processes of their own.

@@ -26,7 +26,7 @@ struct LargeFigures {
   bool has(std::size_t side, const char* part) const;
   /// [s] Median and interval over processes.   pre  has(side, part)
   Figure seconds(std::size_t side, const char* part) const;
-  /// The same over the limit.   pre  has(side, part), and it has a limit
+  /// These seconds over the limit.   pre  has(side, part), and it has a limit
   Figure over_limit(std::size_t side, const char* part) const;
 };
 

@@ -53,7 +53,7 @@ Report reproduce_paper(const ReproducePlan& plan, StudyLog& log) {
   return report;
 }
 
-/// The same step of a body that threads share, by one processor and by all.
+/// The step of a body that threads share, by one processor and by all.
 Report reproduce_larger(const ReproducePlan& plan, StudyLog& log) {
   const StepCosts costs =
       measure_steps({.seed = plan.seed, .only = step_box(100'000, false)}, plan.quick, log, "larger");

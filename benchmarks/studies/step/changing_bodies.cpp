@@ -40,7 +40,7 @@ class FollowingBody {
   ChangingBody<TetMap>& on_;
 };
 
-/// The same without views that follow: after each change the ends of all springs are read from the map. Masses and
+/// A body without views that follow: after each change the ends of all springs are read from the map. Masses and
 /// springs are adapted, or all of them are computed anew, too: then nothing that integrators read follows but positions
 /// and velocities.
 class BodyReadAnew {

@@ -13,7 +13,7 @@ namespace dartboard {
 /// throws  InputError for a cell that is no tetrahedron
 Mesh finer_mesh(const Mesh& mesh);
 
-/// The same until there are so many cells.
+/// Made finer until there are so many cells.
 /// pre  there is a cell
 Mesh finer_mesh_of(Mesh mesh, std::size_t least_cells);
 

@@ -49,7 +49,7 @@ KeptColumns kept_columns(const VertexColumns& vertices, const SpringSystem& syst
 /// A body made of the cells and vertices of a changed one.
 struct FreshBody {
   std::shared_ptr<SimulatedBody> scene;  // as a scene makes it
-  /// The same with the springs of the changed body. Where an edge has come apart between two vertices that have not,
+  /// Its columns with the springs of the changed body. Where an edge has come apart between two vertices that have not,
   /// the scene's body has one spring in place of several parallel ones; here these follow each other.
   KeptColumns columns;
 

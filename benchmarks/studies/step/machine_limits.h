@@ -28,7 +28,7 @@ class CopiedColumns {
   explicit CopiedColumns(std::size_t bytes);
   /// An even number of passes, so that the numbers are what they were.
   void run(int passes);
-  /// The same by the threads in use, each with a part of its own.
+  /// Passes by the threads in use, each with a part of its own.
   /// pre  threads_in_use() > 1
   void run_by_threads(int passes);
   std::size_t bytes() const { return 2 * sizeof(double) * first_.size(); }

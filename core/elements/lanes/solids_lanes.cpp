@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t most_corners = 8;
 
-/// The gradients of the functions of the corners but the first, at four Gauss points.
+/// The gradients of the shape functions but the first, at four Gauss points.
 struct FourPoints {
   FourVectors gradient[most_corners];
 };

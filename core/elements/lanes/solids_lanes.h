@@ -12,7 +12,7 @@ namespace dartboard {
 
 /// The Gauss points of a cell of up to eight corners.
 struct GaussPointsAt {
-  const std::array<Eigen::Vector3d, 8>* gradients;  // of the functions of the corners, by the cell's own coordinates
+  const std::array<Eigen::Vector3d, 8>* gradients;  // of the shape functions, in reference coordinates
   const Eigen::Matrix3d* inverse;                   // [1/m] of the Jacobian
   const double* volume;                             // [m^3]
   std::size_t count, corners;
@@ -35,7 +35,7 @@ extern template std::size_t add_stresses_in_lanes(const GaussPointsAt&, const St
 extern template std::size_t add_stresses_in_lanes(const GaussPointsAt&, const CorotationalConstants&,
                                                   const Eigen::Vector3d*, Eigen::Vector3d*);
 
-/// The same for the stress of damping, at speeds relative to the first corner [m/s].
+/// Adds the stresses of damping likewise, at speeds relative to the first corner [m/s].
 std::size_t add_damping_in_lanes(const GaussPointsAt& at, const DampingConstants& material,
                                  const Eigen::Vector3d* lines, const Eigen::Vector3d* speeds, Eigen::Vector3d* sum);
 

@@ -37,7 +37,7 @@ extern template std::size_t add_forces_in_lanes(const TetrahedraAt&, const StVen
 extern template std::size_t add_forces_in_lanes(const TetrahedraAt&, const CorotationalConstants&, std::size_t,
                                                 std::size_t);
 
-/// The same for the forces of damping at velocities v [m/s]: all tetrahedra are added but less than four at the end.
+/// Adds the forces of damping at velocities v [m/s] likewise: of all tetrahedra but less than four at the end.
 std::size_t add_damping_in_lanes(const TetrahedraAt& at, const Eigen::Vector3d* v, const DampingConstants& material,
                                  std::size_t first, std::size_t last);
 

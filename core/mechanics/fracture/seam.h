@@ -73,11 +73,11 @@ template <class Map>
 std::vector<Dart> faces_of_points(const MassSpringBody<Map, Held::by_every_dart>& body,
                                   std::span<const std::array<std::uint32_t, 3>> triples);
 
-/// The same in a surface: the interior edges between faces on different sides of a plane.
+/// In a surface, the interior edges between faces on different sides of a plane.
 std::vector<Dart> edges_on_plane(const MassSpringBody<Map2, Held::by_every_dart>& body, const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& normal);
 
-/// The same in a surface: the interior edges between two given mesh points.
+/// In a surface, the interior edges between two given mesh points.
 std::vector<Dart> edges_of_points(const MassSpringBody<Map2, Held::by_every_dart>& body,
                                   std::span<const std::array<std::uint32_t, 2>> pairs);
 

@@ -30,7 +30,7 @@ T load(std::string_view bytes, bool big_endian) {
 
 /// pre  bytes.size() >= size_of(type)
 double real_of(Scalar type, std::string_view bytes, bool big_endian);
-/// The same for an integer type; an integer beyond 63 bits becomes the largest one within.
+/// Of an integer type; an integer beyond 63 bits becomes the largest one within.
 std::int64_t integer_of(Scalar type, std::string_view bytes, bool big_endian);
 
 }  // namespace dartboard

@@ -46,7 +46,7 @@ double hexahedron_jacobian(const Corners& x, const std::array<double, 3>& at) {
   return jacobian.determinant();
 }
 
-/// The same of a prism, near one of its three axial edges.
+/// The Jacobian of a prism, near one of its three axial edges.
 double prism_jacobian(const Corners& x, std::size_t near, double z) {
   Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
   for (std::size_t k = 0; k < 3; ++k) jacobian.col(2) += (k == near ? 2.0 / 3.0 : 1.0 / 6.0) * (x[k + 3] - x[k]);

@@ -35,8 +35,8 @@ struct LoadedMesh {
   CrossedCells crossed = {};               // where MeshReading keeps them
   static constexpr std::uint32_t dropped = 0xFFFFFFFF;  // the place of a point of no cell
 
-  /// The number in the file, counted from 0, of a point of `mesh`; for welded points the first, for a point split off
-  /// another that of the other.
+  /// The number in the file, counted from 0, of a point of `mesh`. Welded points have the lowest number of their group;
+  /// a copy has that of its original.
   std::size_t number_in_file(std::uint32_t point) const;
   /// These numbers for all points of `mesh`; empty where each is the point's own.
   std::vector<std::uint32_t> numbers_in_file() const;

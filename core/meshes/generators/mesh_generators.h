@@ -29,7 +29,7 @@ namespace dartboard {
 /// shorter, so four moves below half of that, 0.288..., cannot flatten it.
 Mesh kuhn_box(int nx, int ny, int nz, double spacing, double jitter = 0, std::uint64_t seed = 0);
 
-/// The same, every second cube along x, along y and along z as a mirror image of its neighbours, which share the
+/// A Kuhn box with every second cube along x, along y and along z as a mirror image of its neighbours, which share the
 /// diagonals of their faces for any counts. For even counts the box is its own mirror image and has no direction.
 ///
 /// Every inner edge has an even number of tetrahedra around it; elements of such a mesh hardly lock.

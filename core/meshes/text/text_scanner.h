@@ -12,7 +12,7 @@ namespace dartboard {
 /// Throw IoError "FILE:LINE: found; expected expected"; a line of 0 is left out.
 [[noreturn]] void fail_at(const std::string& file, std::size_t line, std::string_view found, std::string_view expected);
 
-/// The same as "FILE: byte PLACE: ..." for binary data; bytes are counted from 0.
+/// Throw IoError "FILE: byte PLACE: ..." for binary data; bytes are counted from 0.
 [[noreturn]] void fail_at_byte(const std::string& file, std::size_t byte, std::string_view found,
                                std::string_view expected);
 

@@ -71,7 +71,7 @@ class BodyOfColumns final : public SimulatedBody {
   std::vector<CellSprings> springs_within_;
   std::unique_ptr<ForceTerm> cell_springs_;
   std::vector<SkinSample> samples_;  // of its boundary, where there is contact
-  SkinSolids skin_solids_;           // what its parts can be inside of, where some touch
+  SkinSolids skin_solids_;           // tetrahedra along the boundary; empty without contact between bodies
   Eigen::Vector3d gravity_{0, 0, 0};
   Material material_;
   std::vector<Material> materials_;            // of a body of several

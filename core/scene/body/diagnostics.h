@@ -19,7 +19,7 @@ struct CellCounts {
   }
 };
 
-/// The part of a row about contact with obstacles.
+/// The part of a row about contact, with obstacles and between bodies.
 struct ContactDiagnostics {
   double energy = 0;    // [J] of the contacts, no part of the elastic energy
   double damped = 0;    // [J] lost by restitution so far
@@ -57,7 +57,7 @@ struct Diagnostics {
   // [J] potential of the forces applied, - sum of f . x, if a scene has some; if some change in time, that of the start
   // less the work of all of them since
   std::optional<double> applied{};
-  std::optional<ContactDiagnostics> contact{};  // where a scene has obstacles
+  std::optional<ContactDiagnostics> contact{};  // where a scene has contact
   std::optional<SleepDiagnostics> sleep{};      // where components of a scene fall asleep
 
   double energy() const {

@@ -1,5 +1,5 @@
 #pragma once
-// The parts of a running scene, and the memory each takes: the plan predicts it, the objects report it.
+// The parts of a running scene, and the memory that each takes, as its objects report it.
 
 #include <cstddef>
 #include <string_view>

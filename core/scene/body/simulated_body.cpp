@@ -26,7 +26,7 @@ std::unique_ptr<SimulatedBody> make_body(const Problem& problem, const BodyNeeds
   return std::make_unique<BodyOnMap<Map3>>(problem, needs, std::move(mesh_cell));
 }
 
-/// The same, with its cells in the order in which they are stored.
+/// The body with its cells in the order in which they are stored.
 std::unique_ptr<SimulatedBody> make_ordered_body(const Problem& problem, const BodyNeeds& needs,
                                                  std::vector<std::uint32_t> mesh_cell) {
   if (std::vector<std::uint32_t> order = order_along_curve(problem.mesh); !order.empty()) {

@@ -46,7 +46,7 @@ inline void for_each_selection_of_forces(SceneFile& scene, const ForceKind::Sele
   for (const ForceKind& kind : force_kinds())
     if (kind.for_each_selection != nullptr) kind.for_each_selection(scene, visit);
 }
-/// The same where nothing is changed.
+/// Visits the selections without changing any.
 inline void for_each_selection_of_forces(
     const SceneFile& scene, const std::function<void(const std::string& path, const VertexSelection&)>& visit) {
   for_each_selection_of_forces(const_cast<SceneFile&>(scene), ForceKind::Selection(visit));

@@ -200,7 +200,7 @@ struct OutputPlan {
   FrameFields fields{};                    // that frames hold
   std::optional<Compressor> compressor{};  // of the arrays in their files
 
-  /// The same plan with times turned into steps.
+  /// The plan with times turned into steps.
   /// pre  step > 0
   OutputPlan in_steps_of(double step) const;
 };

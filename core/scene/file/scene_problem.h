@@ -14,7 +14,7 @@ namespace dartboard {
 ///
 /// throws  IoError if its file cannot be read, InputError for a generator that cannot make it
 Mesh make_mesh(const SceneFile& scene);
-/// The same for one body of a scene; errors name the scene's file.
+/// The mesh of one body of a scene; errors name the scene's file.
 Mesh make_mesh(const std::string& scene, const BodySource& body);
 
 /// The mechanics of the scene: mesh, bodies, materials, gravity, fixed points, initial velocities. Driven vertices are

@@ -69,7 +69,7 @@ class SceneOutput {
 
   /// throws  IoError if a file cannot be written (below too)
   void write(const Frame& frame);
-  /// The same by another thread, once the last frame is written: what that one has thrown is thrown here.
+  /// Writes by another thread, once the last frame is written: what that one has thrown is thrown here.
   void write_later(const Frame& frame);
   /// Wait for the last frame. Without it, what is thrown when it is written is lost.
   void finish();

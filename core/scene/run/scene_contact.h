@@ -32,8 +32,8 @@ struct ContactWarning {
     too_small,  // an obstacle may come in between samples; value: how far [m], perhaps infinite; limit: the largest
                 // distance [m] of a place on the boundary from a sample
     soft_body,  // before the run; value: ContactForecast::stiffness_ratio; limit: the restitution that is not kept
-    out_of_reach,   // a sample is so deep in a body that no way out is found: it has no contact; value: a depth [m]
-                    // that it had before, or 0; `samples` places are so deep
+    out_of_reach,   // no exit from a body within reach of a sample, so no force; value: its last known depth [m], or
+                    // 0; `samples` places are so deep
     comes_through,  // a sample is driven out on the other side than in the step before; value: its depth [m]
   };
   Kind kind{};

@@ -53,7 +53,7 @@ struct ActingTime {
     const double nearest = std::round((time - from) / *reverse_every), turn = from + nearest * *reverse_every;
     return is_before(time, turn) ? nearest - 1.0 : nearest;
   }
-  /// The same without a change at this time.
+  /// How often the sign has changed before this time.
   double turns_before(double time) const {
     const double turns = turns_until(time);
     return turns > 0.0 && !is_before(from + turns * *reverse_every, time) ? turns - 1.0 : turns;

@@ -38,7 +38,7 @@ class AppliedForces {
   LoadChange apply(double begin, double end, std::span<const std::uint32_t> point_of_vertex,
                    std::span<Eigen::Vector3d> pull, std::span<double> pressure = {});
 
-  /// The same for those that act already and go on, in a time in which none begins or ends.
+  /// Sets the pulls of those that act already and go on, in a time in which none begins or ends.
   ///
   /// returns  whether any has changed
   bool follow(double begin, double end, std::span<const std::uint32_t> point_of_vertex, std::span<Eigen::Vector3d> pull,

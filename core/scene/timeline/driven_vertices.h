@@ -33,7 +33,7 @@ class DrivenVertices {
   LoadChange apply(double begin, double end, std::span<const std::uint32_t> point_of_vertex,
                    std::span<Eigen::Vector3d> velocity);
 
-  /// The same for paths and turns alone, in a time in which nothing starts, turns back or ends.
+  /// Sets the velocities of paths and turns alone, in a time in which nothing starts, turns back or ends.
   ///
   /// returns  whether any has changed
   bool follow(double begin, double end, std::span<const std::uint32_t> point_of_vertex,

@@ -37,7 +37,7 @@ class FrozenDamping {
   /// Each exact flow takes energy away, so the sweep is stable for all h > 0 and c >= 0.
   void decay_symmetric(const SpringSystem& system, const Terms& terms, double h, std::span<Eigen::Vector3d> v);
 
-  /// The same by one sweep for h, order 1.
+  /// Lets velocities decay by one sweep for h, order 1.
   void decay_once(const SpringSystem& system, const Terms& terms, double h, std::span<Eigen::Vector3d> v);
 
  private:

@@ -105,7 +105,7 @@ DARTBOARD_AVX2 void copy(const From* from, To* to, std::size_t first, std::size_
   for (std::size_t i = first; i < last; ++i) store(to[i], load(from[i]));
 }
 
-/// The same of all vertices, after the forces of the stage.
+/// Goes on with all vertices, after the forces of the stage.
 template <Stage stage>
 bool go_on(const SpringSystem& system, const Terms& terms, const Columns& at, double reach) {
   sum_spring_forces<PaddedVector>(system, terms, {at.x, at.size}, {at.v, at.size}, {at.force, at.size}, true);

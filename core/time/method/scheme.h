@@ -46,7 +46,7 @@ double spectral_radius(const Scheme& scheme, double theta, double zeta);
 /// returns `unlimited` when there is no such theta below `ceiling`
 double stable_limit(const Scheme& scheme, double zeta, double steps, double gain, double ceiling = 20.0);
 
-/// The same for a run of a given duration instead of a number of steps: `phase` is the duration times omega, which is
+/// The limit for a run of a given duration instead of a number of steps: `phase` is the duration times omega, which is
 /// phase / theta steps, and one at least. The shorter the steps, the less each of them may amplify.
 double stable_limit_within(const Scheme& scheme, double zeta, double phase, double gain, double ceiling = 20.0);
 

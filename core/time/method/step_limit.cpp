@@ -32,7 +32,7 @@ double first_limit(const Scheme& scheme, double omega, double rate, const Horizo
          omega;
 }
 
-/// The same for a motion that decays and does not oscillate.
+/// The first limit for a motion that decays and does not oscillate.
 double first_limit_of_decay(const Scheme& scheme, double rate, const Horizon& horizon) {
   if (rate == 0.0) return unlimited;
   return (horizon.duration > 0.0 ? damping_limit_within(scheme, horizon.duration * rate, horizon.gain, ceiling)

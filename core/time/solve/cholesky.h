@@ -118,7 +118,7 @@ class Cholesky {
 
   /// x = A^-1 b. May be called with x and b the same.
   SolveStatus solve(std::span<const Eigen::Vector3d> b, std::span<Eigen::Vector3d> x);
-  /// The same, and one step of iterative refinement with the residual in extended precision.
+  /// x = A^-1 b with one step of iterative refinement, whose residual is in extended precision.
   ///
   /// Brings the componentwise backward error (backward_error.h) from up to 3e-11, where scales differ widely, to 4e-16.
   /// cost    two solutions, and a product with the matrix in extended precision

@@ -21,7 +21,7 @@ double kinetic_energy(const SpringSystem& system, std::span<const Eigen::Vector3
 double elastic_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 /// - sum of m g . x [J], zero at the origin.
 double gravity_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
-/// The same for the pull at the vertices, - sum of m p . x [J].
+/// Of the pull at the vertices, - sum of m p . x [J].
 double pull_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 /// All of them.
 double total_energy(const SpringSystem& system, std::span<const Eigen::Vector3d> x, std::span<const Eigen::Vector3d> v);

@@ -48,9 +48,9 @@ inline void add_forces_one_by_one(const SpringColumnsAt<Row>& at, const SomeSpri
   }
 }
 
-/// The same of all springs but less than four at the end, if the processor has AVX2. Lengths, directions and tensions
-/// are computed for four springs at a time by the operations of `spring_force` in their order; then the four add to
-/// their ends one after the other. So each sum has the order and the bits that it has one by one.
+/// Adds the forces of all springs but less than four at the end, if the processor has AVX2. Lengths, directions and
+/// tensions are computed for four springs at a time by the operations of `spring_force` in their order; then the four
+/// add to their ends one after the other. So each sum has the order and the bits that it has one by one.
 ///
 /// returns  the number of springs added; 0 without AVX2, or where lanes are off (lanes.h)
 /// cost     2.4 to 3.2 ns a spring where the columns fit the cache, 0.65 to 0.75 of one by one; 0.8 of that in padded
@@ -65,7 +65,7 @@ inline Eigen::Vector3d direction_of(const SpringEnds& ends, const Eigen::Vector3
   if (length == 0.0) return {0, 0, 0};
   return (1.0 / length) * d;
 }
-/// The same of all springs but less than four at the end, four at a time if the processor has AVX2, with the same bits.
+/// Finds the directions of all springs but less than four at the end, four at a time with AVX2, with the same bits.
 ///
 /// returns  as add_forces_in_lanes
 std::size_t find_directions_in_lanes(std::span<const SpringEnds> ends, std::span<const Eigen::Vector3d> x,

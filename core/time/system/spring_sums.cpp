@@ -16,7 +16,7 @@ void add_spring_forces(const SpringColumnsAt<Row>& at, std::span<const SomeSprin
   add_forces_one_by_one<damped>(at, springs.data(), done, springs.size());
 }
 
-/// The same of the springs of a run, at the vertices within `own` alone.
+/// Adds the forces of the springs of a run, at the vertices within `own` alone.
 template <bool damped, class Row, class SomeSpring>
 void add_spring_forces(const SpringColumnsAt<Row>& at, std::span<const SomeSpring> springs, PieceRun run,
                        VertexRange own) {

@@ -55,7 +55,7 @@ class DivergenceDetector {
   /// After each step: ok, unstable_step, or nonfinite, with the vertex that has most of the energy, or is not finite.
   StepResult after_step(const SpringSystem& system, Motion motion);
 
-  /// The same with all springs: for the end of a run, which may lie between two checks.
+  /// Checks with all springs: for the end of a run, which may lie between two checks.
   /// cost  a force evaluation
   StepResult check_all(const SpringSystem& system, Motion motion);
 
@@ -77,7 +77,7 @@ class DivergenceDetector {
 
   std::uint64_t checks() const { return checks_; }
   std::size_t bytes() const { return bytes_of(kept_x_, kept_v_); }
-  /// The same for the lists of driven vertices and of the springs at them.
+  /// Bytes of the lists of driven vertices and of the springs at them.
   std::size_t driven_bytes() const { return bytes_of(driven_, driven_springs_); }
   std::size_t driven_springs() const { return driven_springs_.size(); }
 

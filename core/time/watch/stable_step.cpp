@@ -107,7 +107,7 @@ double damping_bound(const SpringSystem& system) {
   return highest;
 }
 
-/// The same for the stiffness of the springs across their directions, as a frequency.
+/// A bound for the stiffness of the springs across their directions, as a frequency.
 double across_bound(const SpringSystem& system, std::span<const SpringTangent> tangents) {
   std::vector<double> sum(system.vertex_count(), 0.0);
   for (std::size_t s = 0; s < tangents.size(); ++s)

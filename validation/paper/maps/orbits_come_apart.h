@@ -19,7 +19,7 @@ using DissociateFacet = std::function<TopologyChange(Map&, Dart)>;
 template <class Map>
 ClaimAnswer try_orbits(const Map& at_rest, int dissociations, std::uint64_t seed,
                        const DissociateFacet<Map>& dissociate);
-/// The same with core's operation.
+/// Tries core's operation.
 template <class Map>
 ClaimAnswer try_orbits(const Map& at_rest, int dissociations, std::uint64_t seed);
 

@@ -29,7 +29,7 @@ class ChangingBody {
 
   /// Let embeddings and views follow a change of the map.
   virtual void follow(const TopologyChange& change) = 0;
-  /// The same for a subdivision of tetrahedra.
+  /// Let them follow a subdivision of tetrahedra.
   /// pre  the map is of a solid
   virtual void follow(const Subdivision& subdivision, double bracing) = 0;
   virtual void count_removed(double mass) = 0;

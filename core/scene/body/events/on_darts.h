@@ -34,7 +34,7 @@ class OnDarts : public ReadyEvent {
 
  protected:
   virtual std::size_t operate(std::span<const Dart> darts) = 0;
-  /// The same, and they are added to `taken` unless that is null.
+  /// Operates on the darts and adds them to `taken`, unless that is null.
   std::size_t take(std::span<const Dart> darts, EventTargets* taken) {
     add(darts, taken);
     return operate(darts);
