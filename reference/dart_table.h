@@ -23,7 +23,8 @@ std::vector<std::uint32_t> orbits(const DartTable& table, std::initializer_list<
 
 /// The fan of section 5.1 around the vertex of d0, exactly as described: d0, then dart by dart by alpha_2, alpha_3,
 /// alpha_2 and alpha_1 until d0 is met again, or the surface before alpha_3; then the same from alpha_1(d0), which is
-/// not listed itself.   pre  the table is of a 3-g-map
+/// not listed itself.
+/// pre  the table is of a 3-g-map
 struct PaperFan {
   std::vector<std::uint32_t> darts;
   bool closed;

@@ -19,7 +19,8 @@ class ShiftedTerm final : public ForceTerm {
   ShiftedTerm(const ShiftedTerm&) = delete;
   ShiftedTerm& operator=(const ShiftedTerm&) = delete;
 
-  /// Follow a change of the first vertex, or of the term's pieces.   cost  O(pieces)
+  /// Follow a change of the first vertex, or of the term's pieces.
+  /// cost  O(pieces)
   void shift_to(std::uint32_t first);
   std::size_t bytes() const { return sizeof(std::uint32_t) * (nodes_.size() + first_node_.size()); }
 

@@ -19,7 +19,8 @@ namespace dartboard {
 template <class Map>
 std::vector<Dart> fan(const Map& map, Dart d);
 
-/// Dissociate every face of the fan of `d`.   throws  TopologyError if d is dead; the map is unchanged then
+/// Dissociate every face of the fan of `d`.
+/// throws  TopologyError if d is dead; the map is unchanged then
 template <class Map>
 TopologyChange tear_fan(Map& map, Dart d);
 

@@ -12,7 +12,8 @@ class SplitMix64 {
  public:
   explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
   std::uint64_t next();
-  /// One of 0 .. n - 1; for n far below 2^64, equally likely to the accuracy of a test.   pre  n > 0
+  /// One of 0 .. n - 1; for n far below 2^64, equally likely to the accuracy of a test.
+  /// pre  n > 0
   std::uint32_t below(std::size_t n) { return static_cast<std::uint32_t>(next() % n); }
   /// A multiple of 2^-52 in [-1, 1), all equally likely.
   double next_signed();

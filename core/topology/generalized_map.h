@@ -77,7 +77,8 @@ class GeneralizedMap {
       if (is_live({slot})) f(Dart{slot});
   }
 
-  /// A handle that detects the death of the dart.   throws  TopologyError if it is dead already
+  /// A handle that detects the death of the dart.
+  /// throws  TopologyError if it is dead already
   DartId id(Dart d) const {
     require_live(d);
     return {d, storage_.generation(d)};
@@ -108,7 +109,8 @@ class GeneralizedMap {
       if (a.index / 6 == b.index / 6 && (a.index + b.index) % 2 == 0) throw_turned_face(a, b);
     storage_.link(i, a, b);
   }
-  /// Make `a` and alpha_i(a) i-free.   throws  TopologyError if a is dead
+  /// Make `a` and alpha_i(a) i-free.
+  /// throws  TopologyError if a is dead
   template <int i>
   void unlink(Dart a) {
     static_assert(0 <= i && i <= N && (!tetrahedral || i == 3));

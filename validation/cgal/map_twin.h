@@ -56,7 +56,8 @@ class MapTwin {
   virtual Dart alpha(int i, Dart d) const = 0;
   /// Whether the carrier has a walk for this kind of orbit at all.
   virtual bool can_walk(Involutions) const { return true; }
-  /// The darts of the orbit, replacing what `darts` held, in the order of the carrier's own walk.   pre  can_walk(set)
+  /// The darts of the orbit, replacing what `darts` held, in the order of the carrier's own walk.
+  /// pre  can_walk(set)
   virtual void orbit(Involutions set, Dart d, std::vector<Dart>& darts) const = 0;
 
   // ---- the carrier's answers on the whole map

@@ -34,7 +34,8 @@ class OperationChecks {
   OperationChecks(const AnySubject& subject, ConservationLedger& ledger) : at_(subject), ledger_(ledger) { begin(); }
   virtual ~OperationChecks() = default;
 
-  /// For a fresh body.   cost    O(cells)
+  /// For a fresh body.
+  /// cost  O(cells)
   void begin();
   ConservedSums all_sums() const;
   long euler() const;

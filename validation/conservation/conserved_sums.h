@@ -112,7 +112,8 @@ inline double elongation(double rest_length, const Eigen::Vector3d& x, const Eig
   return std::sqrt((y - x).squaredNorm()) - rest_length;
 }
 
-/// All sums of a body except its boundary.   cost    O(vertices + springs)
+/// All sums of a body except its boundary.
+/// cost  O(vertices + springs)
 template <class Body, class Walk>
 ConservedSums sums_of(const Body& body, const Walk& walk) {
   ConservedSums sums;
@@ -147,7 +148,8 @@ inline double change_bound(Conserved c, std::size_t most_cells, const TwofoldSum
   return 1.001 * gamma(index + 4) * (before.magnitude + after.magnitude + removed.magnitude);
 }
 
-/// The largest power of two of which x is a whole multiple.   pre  x is finite and not zero
+/// The largest power of two of which x is a whole multiple.
+/// pre  x is finite and not zero
 inline double quantum(double x) {
   int exponent = 0;
   auto digits = static_cast<std::uint64_t>(std::ldexp(std::frexp(std::abs(x), &exponent), 53));

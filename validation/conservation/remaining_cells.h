@@ -22,7 +22,8 @@ std::span<const std::vector<int>> sides_of(CellKind kind);
 /// edges (each once, in the order in which the sides show them) are numbered through in the same way.
 class RemainingCells {
  public:
-  /// `mesh` must outlive it.   throws  InputError if a side is shared by three cells
+  /// `mesh` must outlive it.
+  /// throws  InputError if a side is shared by three cells
   explicit RemainingCells(const Mesh& mesh);
 
   void dissociate(std::uint32_t side);
@@ -56,7 +57,8 @@ class RemainingCells {
   std::span<const std::uint32_t> vertex(std::uint32_t corner) const;
   std::span<const std::uint32_t> edge(std::uint32_t edge) const;
 
-  /// Calls f(first corner or edge of the class, all of it).   cost    O(cells)
+  /// Calls f(first corner or edge of the class, all of it).
+  /// cost  O(cells)
   template <class F>
   void for_each_vertex(F&& f) const {
     for_each_class(
@@ -67,7 +69,8 @@ class RemainingCells {
     for_each_class(
         first_edge_, [&](std::uint32_t k) { return edge(k); }, f);
   }
-  /// The cells connected with this one by joined sides, itself included.   cost    O(mesh)
+  /// The cells connected with this one by joined sides, itself included.
+  /// cost  O(mesh)
   std::vector<std::uint32_t> component(std::uint32_t cell) const;
   std::size_t count_components() const;
   std::size_t count_sides() const;  // two joined sides count as one

@@ -76,7 +76,8 @@ class SubdividedCells {
   /// The volume [m^3] computed from the points, and a bound on its rounding error.
   std::pair<double, double> volume(std::uint32_t cell) const;
 
-  /// Calls f(corners) for each vertex; f(edges of cells) for each edge.   cost    O(cells)
+  /// Calls f(corners) for each vertex; f(edges of cells) for each edge.
+  /// cost  O(cells)
   template <class F>
   void for_each_vertex(F&& f) const {
     for_each_class<4>([](std::uint32_t n) { return static_cast<std::uint8_t>(1u << n); }, f);

@@ -14,7 +14,8 @@
 
 namespace dartboard {
 
-/// The body of a problem and its views.   pre  the problem outlives it
+/// The body of a problem and its views.
+/// pre  the problem outlives it
 template <class AnyMap>
 struct SubjectBody {
   using Map = AnyMap;

@@ -52,7 +52,8 @@ VectorXd end_traction(const ClampedBar& bar, const SimulatedBody& body, const Me
   return force;
 }
 
-/// The number of the place at each point.   throws  SolverError where there is none
+/// The number of the place at each point.
+/// throws  SolverError where there is none
 std::vector<std::uint32_t> nodes_at(std::span<const Vector3d> places, std::span<const Vector3d> points, double within) {
   std::vector<std::uint32_t> found;
   for (const Vector3d& point : points) {

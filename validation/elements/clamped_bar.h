@@ -49,9 +49,11 @@ struct LinearBar {
   Eigen::VectorXd shear;               // [N] a traction of 1 Pa along z on the free end
   std::vector<std::uint32_t> watched;  // the nodes at ClampedBar::watched
 };
-/// By the stiffness of a body's own forces and masses, as it is simulated.   pre  the body is at rest
+/// By the stiffness of a body's own forces and masses, as it is simulated.
+/// pre  the body is at rest
 LinearBar linear_bar(const ClampedBar& bar, const BarModel& model, int finer, const SimulatedBody& body);
-/// The body's vertices at ClampedBar::watched.   pre  the body is at rest
+/// The body's vertices at ClampedBar::watched.
+/// pre  the body is at rest
 std::vector<std::uint32_t> watched_vertices(const ClampedBar& bar, const SimulatedBody& body);
 /// By quadratic tetrahedra; their nodes are those of linear ones on a mesh twice as fine.
 LinearBar quadratic_bar(const ClampedBar& bar, int finer, double poisson);

@@ -29,7 +29,8 @@ struct JudgedSteps {
 /// Judges the steps of a run: the first ones, and a sample of all others.
 class StepEvidence {
  public:
-  /// For a run of so many steps.   pre  the elements outlive this
+  /// For a run of so many steps.
+  /// pre  the elements outlive this
   StepEvidence(std::string_view integrator, std::uint64_t steps, KnownElements elements = nullptr,
                JudgedSteps judged = {});
 

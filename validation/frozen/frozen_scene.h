@@ -64,7 +64,8 @@ FrozenScene freeze(const SceneFile& file, const Problem& problem, std::vector<Ei
 /// The body of a frozen scene, moved by the integrator of a run, and changed as the scene says.
 class FrozenBody {
  public:
-  /// The body after the changes at time 0.   pre  the scene outlives it
+  /// The body after the changes at time 0.
+  /// pre  the scene outlives it
   explicit FrozenBody(const FrozenScene& scene);
 
   SimulatedBody& body() { return *body_; }

@@ -10,7 +10,8 @@ inline constexpr double spreads_allowed = 10.0;
 
 /// The distance of the state after a hundred steps under gravity, the lowest point held, over cell arrays of a body on
 /// a map, from the reference's: over `spreads_allowed` spreads, so that more than 1 is too much. Positions and
-/// velocities alike.   pre  the mesh is not empty
+/// velocities alike.
+/// pre  the mesh is not empty
 double motion_beside_reference(const Mesh& mesh);
 
 }  // namespace dartboard

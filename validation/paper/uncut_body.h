@@ -7,7 +7,8 @@
 namespace dartboard {
 
 /// Every cell has its exact mass and every vertex the exact sum of its shares, eq. (1), up to the rounding of each; so
-/// the sums of both are equal, too.   pre  one vertex for each mesh point, no Young's modulus
+/// the sums of both are equal, too.
+/// pre  one vertex for each mesh point, no Young's modulus
 ClaimAnswer masses_are_of_cells(const MassSpringBody<Map3, Held::by_every_dart>& body, const Problem& problem);
 
 /// Every edge has k for each cell around it, to the last bit, counted in the mesh by pairs of points; so all together

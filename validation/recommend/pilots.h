@@ -24,7 +24,8 @@ TradeoffScene first_part(const TradeoffScene& scene, double part, std::size_t ch
 /// Runs pilots and counts the time that they take.
 class Pilots {
  public:
-  /// `start` is the time of the clock from which all is counted.   pre  the arguments outlive it
+  /// `start` is the time of the clock from which all is counted.
+  /// pre  the arguments outlive it
   Pilots(const TradeoffScene& scene, const CpuClock& clock, const RecommendOptions& options, std::int64_t start);
 
   /// One pilot with the integrator of a candidate, on the scene or on a part of it.
@@ -32,7 +33,8 @@ class Pilots {
                std::size_t checkpoints = std::numeric_limits<std::size_t>::max());
 
   /// The cost of a step of a candidate's fixed setting in force evaluations: the median of short runs, each between two
-  /// timings of the forces.   pre  the candidate has been solved for an error
+  /// timings of the forces.
+  /// pre  the candidate has been solved for an error
   double step_cost(const Candidate& candidate);
 
   /// The time [s] of a step of h, measured over some steps from the start.

@@ -23,7 +23,8 @@ class Draw {
   double logarithmic(double low, double high) { return low * std::pow(high / low, uniform(0.0, 1.0)); }
   bool happens(double probability) { return uniform(0.0, 1.0) < probability; }
   std::uint32_t below(std::size_t n) { return random_.below(n); }
-  /// One of low .. high.   pre  0 <= low <= high
+  /// One of low .. high.
+  /// pre  0 <= low <= high
   int whole(int low, int high) {
     return low + static_cast<int>(below(static_cast<std::size_t>(high) + 1 - static_cast<std::size_t>(low)));
   }

@@ -21,7 +21,8 @@ using CpuClock = std::function<std::int64_t()>;
 /// A scene at some moment of a run: what the time loop needs, and the way to the next moment.
 class SceneStage {
  public:
-  /// At the start.   pre  the scene outlives the stage
+  /// At the start.
+  /// pre  the scene outlives the stage
   explicit SceneStage(const TradeoffScene& scene);
 
   SpringSystem system() const;
@@ -33,7 +34,8 @@ class SceneStage {
   void pass_event();
   /// As FrozenBody::load.
   bool load(Integrator& integrator, double time, double h) { return frozen_ && frozen_->load(integrator, time, h); }
-  /// One step of h [s] from `time`.   pre  `system` is that of the stage now
+  /// One step of h [s] from `time`.
+  /// pre  `system` is that of the stage now
   StepResult step(Integrator& integrator, const SpringSystem& system, double time, double h) {
     return frozen_ ? frozen_->step(integrator, system, time, h) : integrator.step(system, motion(), h);
   }

@@ -24,9 +24,11 @@ struct LargeFigures {
   std::vector<LargeCounts> counts;
 
   bool has(std::size_t side, const char* part) const;
-  /// [s] Median and interval over processes.   pre  has(side, part)
+  /// [s] Median and interval over processes.
+  /// pre  has(side, part)
   Figure seconds(std::size_t side, const char* part) const;
-  /// These seconds over the limit.   pre  has(side, part), and it has a limit
+  /// These seconds over the limit.
+  /// pre  has(side, part), and it has a limit
   Figure over_limit(std::size_t side, const char* part) const;
 };
 

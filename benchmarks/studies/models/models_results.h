@@ -51,7 +51,8 @@ Figure cost_of(const std::vector<Sample>& samples, const TimedBar& bar);
 bool belongs(const ModelPoint& point, std::string_view family);
 
 /// The cost of an error with a model, for a simulated second [s]: between two meshes that follow each other, cost is a
-/// power of error; infinite below the errors of all of them.   pre  points of a model go from coarse to fine
+/// power of error; infinite below the errors of all of them.
+/// pre  points of a model go from coarse to fine
 double cost_for(const ModelsResults& results, const std::string& model, Asked asked, double poisson, double error);
 
 /// Errors for which one model is the cheapest by `cost_for`.

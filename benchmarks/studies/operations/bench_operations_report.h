@@ -21,7 +21,8 @@ struct OperationFigures {
                                 std::size_t first_phase = 0, std::size_t phases = 99) const;
 };
 
-/// Targets of our own; the last one is the paper's sentence on rebuilding.   pre  "liver564" is among the bodies
+/// Targets of our own; the last one is the paper's sentence on rebuilding.
+/// pre  "liver564" is among the bodies
 std::vector<Claim> claims_of(const OperationFigures& figures, const std::vector<std::string>& bodies);
 
 Table operations_table(const OperationFigures& figures, const std::vector<std::string>& bodies);

@@ -15,7 +15,8 @@ namespace dartboard {
 /// that something is impossible, `tried.holds` means that it was done, and the sentence is not met.
 Claim tried_out(PaperClaimId id, const ClaimAnswer& tried, std::string where);
 
-/// All of these claims; some 3 seconds on the paper's body.   pre  its cells are tetrahedra
+/// All of these claims; some 3 seconds on the paper's body.
+/// pre  its cells are tetrahedra
 std::vector<Claim> answer_by_trials(const Problem& problem);
 
 }  // namespace dartboard

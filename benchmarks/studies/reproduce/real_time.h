@@ -24,13 +24,15 @@ struct FrameTime {
 };
 
 /// The number of tetrahedra whose frame takes 1/60 s, by straight lines between the bodies measured, from the origin
-/// on; the largest body where even that is faster.   pre  ascending in the cells, not empty
+/// on; the largest body where even that is faster.
+/// pre  ascending in the cells, not empty
 double cells_in_real_time(std::span<const FrameTime> frames);
 
 /// One round: bodies that grow until a frame takes longer than 1/60 s, or has 64,000 tetrahedra.
 std::vector<FrameTime> time_frames(double h);
 
-/// The answer of the rounds. A quick run contradicts nothing.   pre  there is a round
+/// The answer of the rounds. A quick run contradicts nothing.
+/// pre  there is a round
 Claim answer_real_time(std::span<const std::vector<FrameTime>> rounds, bool quick);
 /// Seven rounds, timed.
 Claim measure_real_time(double h, bool quick);

@@ -59,7 +59,8 @@ std::vector<Claim> answer_body(const MassSpringBody<Map3, Held::by_every_dart>& 
 std::vector<Claim> answer_time(const ReproduceResults& results);
 
 /// The paper's Fig. 9: series of `removals` removals, the arrays rebuilt once after each. Negligible is read as a
-/// tenth.   pre  there is a series
+/// tenth.
+/// pre  there is a series
 Claim answer_rebuild(const std::vector<SeriesTime>& series, int removals);
 /// Seven series of twenty removals, timed.
 Claim measure_rebuild_claim(const Problem& problem);

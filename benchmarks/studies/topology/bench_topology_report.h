@@ -28,7 +28,8 @@ struct TopologyFigures {
     for (double* value : {&f.median, &f.interval.low, &f.interval.high}) *value /= unit->second;
     return f;
   }
-  /// Time per unit of `a` over that of `b`.   pre  both were timed
+  /// Time per unit of `a` over that of `b`.
+  /// pre  both were timed
   Figure ratio(const std::string& group, const std::string& a, const std::string& b) const {
     Figure f = paired_ratio(samples.at(group), a, b).cpu;
     const double scale = units.at(group + ":" + b) / units.at(group + ":" + a);

@@ -48,7 +48,8 @@ std::vector<Claim> audit_claims(AuditKind kind, const std::vector<AuditedPair>& 
 
 Table audit_table(AuditKind kind, const std::vector<AuditedPair>& pairs);
 
-/// The scenes drawn, a row for each.   pre  the pairs of a scene follow each other
+/// The scenes drawn, a row for each.
+/// pre  the pairs of a scene follow each other
 Table audited_scenes_table(AuditKind kind, const std::vector<AuditedPair>& pairs);
 
 /// One line of samples.jsonl; numbers that are not finite are null.

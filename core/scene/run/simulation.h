@@ -63,9 +63,11 @@ class Simulation {
   /// that bound.
   const StableStep& stable_step() const { return guard_.limits(); }
   /// The longest stable step [s] for the body as it is now, which warnings, refusals and divided steps use; see
-  /// StableStep::limit.   cost  a close estimate: a hundred force evaluations
+  /// StableStep::limit.
+  /// cost  a close estimate: a hundred force evaluations
   StepLimit step_limit() const { return guard_.limit(*body_, integrator_->scheme()); }
-  /// The limit by what `stable_step` has: that step or, of a quick bound, a shorter one.   cost  about a millisecond
+  /// The limit by what `stable_step` has: that step or, of a quick bound, a shorter one.
+  /// cost  about a millisecond
   StepLimit step_limit_found() const { return guard_.limits().limit(integrator_->scheme(), guard_.horizon()); }
   /// The first step found to be too long, and how steps are divided since.
   const std::optional<StepWarning>& step_warning() const { return guard_.warning(); }

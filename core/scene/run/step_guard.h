@@ -39,7 +39,8 @@ class StepGuard {
   void examine(const SimulatedBody& body, const Scheme& scheme, std::uint64_t n);
   /// The limits found then: only a quick bound, if the step is stable by that bound.
   const StableStep& limits() const { return limits_; }
-  /// The limits for the body as it is now.   cost  a hundred force evaluations
+  /// The limits for the body as it is now.
+  /// cost  a hundred force evaluations
   StepLimit limit(const SimulatedBody& body, const Scheme& scheme) const;
   const Horizon& horizon() const { return horizon_; }
   /// The first step found to be too long.

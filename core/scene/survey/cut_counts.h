@@ -9,7 +9,8 @@
 
 namespace dartboard {
 
-/// The number of facets between cells: faces of volumes, edges of polygons.   cost  O(cells log cells)
+/// The number of facets between cells: faces of volumes, edges of polygons.
+/// cost  O(cells log cells)
 std::size_t count_inner_facets(const Mesh& mesh);
 
 /// The count for a cut that takes apart `selected` facets of `all` between cells; for a bounded cut also the facets on
