@@ -24,8 +24,8 @@ struct FourSymmetric {
 DARTBOARD_AVX2_INLINE FourMatrices operator*(const FourMatrices& m, const FourSymmetric& s) {
   return m * FourMatrices{{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}};
 }
-/// The stress of a strain (of its rate): shape e + bulk tr(e) I. Adding zero times the trace off the diagonal reproduces
-/// the sign of zero of the scalar code.
+/// The stress of a strain (of its rate): shape e + bulk tr(e) I. Adding zero times the trace off the diagonal
+/// reproduces the sign of zero of the scalar code.
 DARTBOARD_AVX2_INLINE FourSymmetric isotropic(Four shape, Four bulk, const FourSymmetric& e) {
   const Four pressure = bulk * (e.xx + e.yy + e.zz), none = pressure * four(0.0);
   return {shape * e.xx + pressure, shape * e.yy + pressure, shape * e.zz + pressure,
