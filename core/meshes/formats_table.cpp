@@ -17,7 +17,9 @@ constexpr MeshFormatInfo table[] = {
      "version 2, ASCII, 17 digits"},
     {MeshFormat::tetgen, "TetGen", tetgen, "ASCII; regions; 6- and 10-node cells by their corners", ""},
     {MeshFormat::gmsh, "Gmsh", gmsh,
-     "versions 1, 2.x, 4.0 and 4.1, ASCII and binary; physical groups; cells of higher order by their corners", ""},
+     "versions 1, 2.x, 4.0 and 4.1, ASCII and binary; physical groups, also of partitioned meshes; cells of "
+     "higher order by their corners",
+     ""},
     {MeshFormat::vtk_legacy, "legacy VTK", vtk,
      "versions 1.0 to 5.1, ASCII and BINARY; unstructured grids, cells of higher order by their corners; polygon data, "
      "triangles, quadrilaterals and strips; whole numbers of cells",
@@ -31,7 +33,8 @@ constexpr MeshFormatInfo table[] = {
     {MeshFormat::obj, "OBJ", obj,
      "triangles and quadrilaterals; points of two or three coordinates; groups and materials", ""},
     {MeshFormat::ply, "PLY", ply,
-     "ASCII and binary of either byte order; triangles and quadrilaterals; points of two or three coordinates", ""},
+     "ASCII and binary of either byte order; triangles, quadrilaterals and strips; points of two or three coordinates",
+     ""},
     {MeshFormat::off, "OFF", off,
      "ASCII and BINARY; triangles and quadrilaterals; also COFF, NOFF, CNOFF, STOFF, nOFF and 2OFF, points of two or three coordinates",
      ""},

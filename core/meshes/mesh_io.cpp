@@ -61,6 +61,14 @@ MeshFormat true_format(std::string_view text, MeshFormat format, MeshBuilder& bu
   return *found;
 }
 
+/// The contents of a mesh file. Lines that end as on old Macs, in CR alone, end in LF instead.
+std::string mesh_text(const fs::path& path, std::string_view wanted) {
+  std::string text = file_text(path, wanted);
+  const bool is_text = text.find('\0') == text.npos;
+  if (is_text && text.find('\n') == text.npos) std::ranges::replace(text, '\r', '\n');
+  return text;
+}
+
 fs::path with(fs::path stem, std::string_view extension) { return stem += extension; }
 
 LoadedMesh finish(MeshBuilder& builder, std::string format, std::string_view text, const MeshReading& reading) {
@@ -71,8 +79,8 @@ LoadedMesh finish(MeshBuilder& builder, std::string format, std::string_view tex
 }
 
 LoadedMesh read_tetgen_files(const fs::path& node_path, const fs::path& ele_path, const MeshReading& reading) {
-  const std::string node_text = file_text(node_path, "the TetGen points that belong to the .ele file");
-  const std::string ele_text = file_text(ele_path, "the TetGen cells that belong to the .node file");
+  const std::string node_text = mesh_text(node_path, "the TetGen points that belong to the .ele file");
+  const std::string ele_text = mesh_text(ele_path, "the TetGen cells that belong to the .node file");
   TextScanner node(node_text, node_path.string(), '#');
   TextScanner ele(ele_text, ele_path.string(), '#');
   MeshBuilder builder(node.file(), ele.file());
@@ -95,7 +103,7 @@ LoadedMesh read_mesh(const fs::path& path, const MeshReading& reading) {
     return lower(path.extension().string()) == ".node" ? read_tetgen_files(path, with(stem, ".ele"), reading)
                                                        : read_tetgen_files(with(stem, ".node"), path, reading);
   }
-  const std::string text = file_text(path, fmt::format("a mesh file: {}", known_extensions()));
+  const std::string text = mesh_text(path, fmt::format("a mesh file: {}", known_extensions()));
   return parse_mesh(text, *format, path.string(), reading);
 }
 

@@ -77,6 +77,14 @@ class ForeignFiles(MeshVariants):
                 self.check(said, [points[p] for p in used],
                            [(kind, [[used.index(p) for p in nodes]]) for kind, nodes in cells], notices)
 
+    def test_parts_of_a_mesh_that_gmsh_partitioned(self):
+        for name in ("40", "41", "41_binary"):
+            with self.subTest(name=name):
+                said = self.read("partitioned_%s.msh" % name)
+                self.assertEqual(said["volumes"], 66)
+                self.assertEqual(self.regions(said), {"physical group": {10: (24, "low"), 20: (42, "high")},
+                                                      "entity": {1: (24, None), 2: (42, None)}})
+
 
 def main(program, *tests):
     mesh_variants.PROGRAM = program

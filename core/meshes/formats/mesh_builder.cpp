@@ -27,6 +27,14 @@ std::size_t last_line_of(std::string_view text) {
   return std::max<std::size_t>(1, lines + (ends_with_line ? 0 : 1));
 }
 
+/// "the file has 2 edges and no cells"
+std::string without_cells(std::uint64_t points, std::uint64_t edges) {
+  std::vector<std::string> parts;
+  if (edges != 0) parts.push_back(counted(edges, "edge"));
+  if (points != 0) parts.push_back(counted(points, "point element"));
+  return fmt::format("the file has {}{}no cells", fmt::join(parts, ", "), parts.empty() ? "" : " and ");
+}
+
 }  // namespace
 
 MeshBuilder::MeshBuilder(std::string point_file, std::string cell_file)
@@ -170,7 +178,8 @@ LoadedMesh MeshBuilder::finish(std::string format, std::string_view text) {
   for (std::size_t c = 0; c < kinds_.size(); ++c)
     if (!is_left_out(c)) dimension = std::max(dimension, dartboard::dimension(kinds_[c]));
   if (dimension == 0)
-    fail_at(cell_file_, last_line_of(text), "the file has no cells", "at least one triangle, quadrilateral or volume");
+    fail_at(cell_file_, last_line_of(text), without_cells(skipped_[0], skipped_[1]),
+            "at least one triangle, quadrilateral or volume");
   CountsByKind counts{};
   for (std::size_t c = 0; c < kinds_.size(); ++c)
     if (dartboard::dimension(kinds_[c]) == dimension && !is_left_out(c)) ++counts[static_cast<std::size_t>(kinds_[c])];

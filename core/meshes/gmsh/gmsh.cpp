@@ -90,8 +90,8 @@ void read_section(GmshReader& r, const std::string& section) {
     read_format(r);
   } else if (name == "$PHYSICALNAMES") {
     read_physical_names(r);
-  } else if (name == "$ENTITIES" && is_version_4) {
-    read_gmsh_entities(r);
+  } else if ((name == "$ENTITIES" || name == "$PARTITIONEDENTITIES") && is_version_4) {
+    read_gmsh_entities(r, name != "$ENTITIES");
   } else {
     return skip_section(r, section);
   }

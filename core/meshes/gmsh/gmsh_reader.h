@@ -34,8 +34,10 @@ struct GmshReader {
   GmshVersion version = GmshVersion::unknown;
   std::string_view version_text = {};  // into the text, or a literal
   std::size_t group_column, entity_column;
-  std::map<std::pair<std::uint64_t, std::int64_t>, std::int64_t> group_of_entity = {};  // by dimension and tag
-  std::uint64_t further_groups = 0;                                                     // entities of more than one
+  using ByEntity = std::map<std::pair<std::uint64_t, std::int64_t>, std::int64_t>;  // by dimension and tag
+  ByEntity group_of_entity = {};
+  ByEntity parent_of_entity = {};    // before the mesh was partitioned
+  std::uint64_t further_groups = 0;  // entities of more than one
 };
 
 Eigen::Vector3d read_gmsh_coordinates(GmshNumbers& numbers, std::uint64_t node);
@@ -49,7 +51,8 @@ void read_gmsh_node_list(GmshReader& r);
 void read_gmsh_element_list(GmshReader& r);
 
 // sections of version 4: blocks, each of one geometric entity
-void read_gmsh_entities(GmshReader& r);
+/// Those of a mesh or, after it was partitioned, their parts.
+void read_gmsh_entities(GmshReader& r, bool are_partitioned);
 void read_gmsh_node_blocks(GmshReader& r);
 void read_gmsh_element_blocks(GmshReader& r);
 

@@ -1,10 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "core/base/counted.h"
 #include "core/meshes/bytes/file_numbers.h"
+#include "core/meshes/formats/triangle_strip.h"
 #include "core/meshes/surfaces/surface_formats.h"
 #include "core/meshes/text/text_scanner.h"
 
@@ -13,7 +18,7 @@ namespace {
 
 struct Property {
   std::string name;
-  Scalar type;
+  Scalar type = Scalar::int32;
   std::optional<Scalar> length = {};  // of the number before a list
 };
 
@@ -24,6 +29,7 @@ struct Element {
 
   bool is_vertex() const { return name == "vertex"; }
   bool is_face() const { return name == "face"; }
+  bool is_strips() const { return name == "tristrips"; }
 };
 
 struct Header {
@@ -119,24 +125,86 @@ void read_vertex(FileNumbers& numbers, const Element& element, MeshBuilder& buil
   builder.add_point(number, x, numbers.line());
 }
 
-/// A face, or another element, of which nothing is kept. Lists of corners have one of two names.
-void read_element(FileNumbers& numbers, const Element& element, MeshBuilder& builder) {
-  std::vector<std::uint64_t> corners;
-  std::size_t line = 0;
-  const std::uint64_t cell = builder.cell_count();
+/// The list that has the corners of a face, or the points of a strip: the one of integers or, among several of these,
+/// the one of a usual name.
+const Property& corners_of(const TextScanner& scan, const Element& element) {
+  std::vector<const Property*> lists;
+  for (const Property& property : element.properties)
+    if (property.length && !is_real(property.type)) lists.push_back(&property);
+  if (lists.size() == 1) return *lists.front();
+  const std::string_view usual[] = {"vertex_indices", "vertex_index"};
+  for (const Property* list : lists)
+    if (std::ranges::find(usual, list->name) != std::end(usual)) return *list;
+  scan.fail(
+      fmt::format("elements {} with {} lists of integers", in_quotes(element.name), lists.size()),
+      fmt::format("one with the numbers of points, or several of which one is named {} or {}", usual[0], usual[1]));
+}
+
+/// The values of one list of an element; its other properties are skipped.
+template <class Take>
+void read_list(FileNumbers& numbers, const Element& element, const Property& list, const Take& take) {
   for (const Property& property : element.properties) {
     const std::uint64_t length = property.length ? numbers.count(*property.length, "the length of a list") : 1;
-    const bool is_corners = property.name == "vertex_indices" || property.name == "vertex_index";
-    if (!element.is_face() || !property.length || !is_corners) {
+    if (&property != &list)
       numbers.skip(property.type, length, "a property");
-      continue;
-    }
-    if (is_real(property.type)) numbers.fail("corners that are real numbers", "an integer type");
-    line = numbers.line();
-    for (std::uint64_t k = 0; k < length; ++k)
-      corners.push_back(numbers.count(property.type, {"a corner of face", cell}));
+    else
+      for (std::uint64_t k = 0; k < length; ++k) take();
   }
-  if (element.is_face()) add_polygon(builder, corners, line);
+}
+
+void read_faces(FileNumbers& numbers, const Element& element, const Property& list, MeshBuilder& builder) {
+  std::vector<std::uint64_t> corners;
+  for (std::uint64_t k = 0; k < element.count; ++k) {
+    corners.clear();
+    std::size_t line = 0;
+    read_list(numbers, element, list, [&] {
+      corners.push_back(numbers.count(list.type, {"a corner of face", k}));
+      line = numbers.line();
+    });
+    add_polygon(builder, corners, line);
+  }
+}
+
+/// The number -1, or any that is negative, ends a strip within a list.
+void read_strips(FileNumbers& numbers, const Element& element, const Property& list, MeshBuilder& builder) {
+  std::vector<std::uint64_t> strip;
+  const auto add = [&] {
+    if (strip.size() == 1 || strip.size() == 2)
+      numbers.fail(fmt::format("a triangle strip with {}", counted(strip.size(), "point")), "3 points or more");
+    for_each_triangle(std::span<const std::uint64_t>(strip),
+                      [&](const auto& corners) { builder.add_cell(CellKind::triangle, corners, numbers.line()); });
+    strip.clear();
+  };
+  for (std::uint64_t k = 0; k < element.count; ++k) {
+    read_list(numbers, element, list, [&] {
+      const std::int64_t point = numbers.integer(list.type, {"a point of strip", k});
+      point < 0 ? add() : strip.push_back(static_cast<std::uint64_t>(point));
+    });
+    add();
+  }
+}
+
+void skip_elements(FileNumbers& numbers, const Element& element, MeshBuilder& builder) {
+  if (element.count == 0) return;
+  if (element.name == "edge")
+    builder.skip(1, element.count);
+  else
+    builder.add_notice(fmt::format("left out {} of name {}: only vertex, face and tristrips are read",
+                                   counted(element.count, "element"), in_quotes(element.name)));
+  if (element.properties.empty()) return;
+  const Property none;
+  for (std::uint64_t k = 0; k < element.count; ++k) read_list(numbers, element, none, [] {});
+}
+
+void read_elements(const TextScanner& scan, FileNumbers& numbers, const Element& element, MeshBuilder& builder) {
+  if (element.is_vertex())
+    for (std::uint64_t k = 0; k < element.count; ++k) read_vertex(numbers, element, builder);
+  else if (element.count != 0 && element.is_face())
+    read_faces(numbers, element, corners_of(scan, element), builder);
+  else if (element.count != 0 && element.is_strips())
+    read_strips(numbers, element, corners_of(scan, element), builder);
+  else
+    skip_elements(numbers, element, builder);
 }
 
 }  // namespace
@@ -152,9 +220,7 @@ std::string read_ply(std::string_view text, MeshBuilder& builder) {
   std::uint64_t in_the_plane = 0;
   for (const Element& element : header.elements) {
     if (element.is_vertex() && !check_vertex(scan, element)) in_the_plane += element.count;
-    if (element.properties.empty() && element.count != 0 && !element.is_face()) continue;
-    for (std::uint64_t k = 0; k < element.count; ++k)
-      element.is_vertex() ? read_vertex(numbers, element, builder) : read_element(numbers, element, builder);
+    read_elements(scan, numbers, element, builder);
   }
   if (!scan.at_end()) {
     const auto extra = scan.token("nothing");

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/counted.h"
+#include "core/meshes/formats/triangle_strip.h"
 #include "core/meshes/text/text_scanner.h"
 
 namespace dartboard {
@@ -69,16 +70,11 @@ std::optional<int> dimension_of_skipped(std::int64_t type) {
 
 constexpr std::int64_t triangle = 5, quadrilateral = 9;
 
-/// Every point after the second makes a triangle with the two before it; every other one of these is turned.
 void add_strip(MeshBuilder& builder, std::span<const std::int64_t> points, const VtkPlace& place) {
   if (points.size() < 3)
     fail_at(builder.cell_file(), place.line,
             fmt::format("cell {} is a triangle strip with {} points", place.cell, points.size()), "3 points or more");
-  for (std::size_t k = 2; k < points.size(); ++k) {
-    const bool is_turned = k % 2 == 1;
-    const std::array corners{points[is_turned ? k - 1 : k - 2], points[is_turned ? k - 2 : k - 1], points[k]};
-    add_vtk_cell(builder, triangle, corners, place);
-  }
+  for_each_triangle(points, [&](const auto& corners) { add_vtk_cell(builder, triangle, corners, place); });
 }
 
 }  // namespace

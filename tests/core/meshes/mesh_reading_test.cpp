@@ -198,6 +198,48 @@ TEST_F(MeshFiles, OfTetGenHaveNoMorePointsThanTheyAnnounce) {
   }
 }
 
+TEST_F(MeshFiles, MayEndTheirLinesInCarriageReturnsAlone) {
+  std::string text(medit);
+  std::ranges::replace(text, '\n', '\r');
+  std::ofstream(folder_ / "a.mesh") << "# a comment\r" << text;
+  expect_two_tetrahedra(read_mesh(folder_ / "a.mesh"));
+  std::string points(tetgen_node), cells(tetgen_ele);
+  std::ranges::replace(points, '\n', '\r');
+  std::ranges::replace(cells, '\n', '\r');
+  std::ofstream(folder_ / "b.node") << points;
+  std::ofstream(folder_ / "b.ele") << cells;
+  expect_two_tetrahedra(read_mesh(folder_ / "b.node"));
+}
+
+TEST_F(MeshFiles, AreNamedAsWhatStandsInTheirPlace) {
+  using namespace std::string_view_literals;
+  const std::tuple<std::string_view, std::string_view, std::string_view> others[] = {
+      {"PK\x03\x04\x14\0\0\0"sv, "this is a ZIP archive", "the file in it: unpack it first"},
+      {"\x1f\x8b\x08\0\0"sv, "this is compressed by gzip", "unpack it first"},
+      {"BZh91AY&SY..."sv, "this is compressed by bzip2", "unpack it first"},
+      {"\xfd\x37zXZ\0\0"sv, "this is compressed by xz", "unpack it first"},
+      {"\x28\xb5\x2f\xfd\x04"sv, "this is compressed by Zstandard", "unpack it first"},
+      {"7z\xbc\xaf\x27\x1c\0"sv, "this is a 7-Zip archive", "unpack it first"},
+      {"Rar!\x1a\x07\x01"sv, "this is a RAR archive", "unpack it first"},
+      {"version https://git-lfs.github.com/spec/v1\noid sha256:0\n"sv, "this is a pointer of Git LFS", "git lfs pull"},
+      {"/annex/objects/SHA256E-s1--0.stl\n"sv, "this is a pointer of git-annex", "git annex get"},
+      {"<!DOCTYPE html>\n<html>"sv, "this is a page of HTML", "the file itself"},
+      {"<html>"sv, "this is a page of HTML", "the file itself"},
+      {"\xff\xfe#\0 \0"sv, "this is text in UTF-16", "ASCII or UTF-8"}};
+  for (const char* extension : {".stl", ".ply", ".msh", ".mesh", ".vtu", ".node"})
+    for (const auto& [text, is, expected] : others) {
+      const auto path = folder_ / (std::string("a") + extension);
+      std::ofstream(path, std::ios::binary) << text;
+      try {
+        read_mesh(path);
+        FAIL();
+      } catch (const IoError& error) {
+        expect_part(error.what(), path.string() + ": " + std::string(is) + "; expected ");
+        expect_part(error.what(), expected);
+      }
+    }
+}
+
 // Cells are grouped by kind in the file: the kind and nodes of each are compared, in any order.
 TEST_F(MeshFiles, OfEveryKindOfCellReadBackAsTheyWereWritten) {
   const auto cells = [](const Mesh& mesh) {

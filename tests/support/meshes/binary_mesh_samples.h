@@ -160,12 +160,11 @@ inline std::string gmsh41_binary() {
          ints({1}) + box + sizes({1}) + ints({5}) + sizes({0}) +                  // a surface
          ints({1}) + box + sizes({1}) + ints({7}) + sizes({1}) + ints({1}) +      // volumes
          ints({2}) + box + sizes({2}) + ints({-8, 7}) + sizes({1}) + ints({1}) +  //
-         "\n$EndEntities\n$PartitionedEntities\n" + sizes({0, 0, 0}) + "\n$EndPartitionedEntities\n$Nodes\n" +
-         sizes({2, 5, 1, 5}) + ints({2, 1, 1}) + sizes({2, 1, 2}) +
-         bytes_of<double>({0, 0, 0, .25, .75, 1, 0, 0, .5, .5}) + ints({3, 1, 0}) + sizes({3, 3, 4, 5}) +
-         bytes_of<double>({0, 1, 0, 0, 0, 1, 1, 1, 1}) + "\n$EndNodes\n$Elements\n" + sizes({3, 3, 1, 3}) +
-         ints({2, 1, 2}) + sizes({1, 1, 1, 2, 3}) + ints({3, 1, 4}) + sizes({1, 2, 1, 2, 3, 4}) + ints({3, 2, 4}) +
-         sizes({1, 3, 2, 3, 4, 5}) + "\n$EndElements\n";
+         "\n$EndEntities\n$Periodic\n" + sizes({0, 0, 0}) + "\n$EndPeriodic\n$Nodes\n" + sizes({2, 5, 1, 5}) +
+         ints({2, 1, 1}) + sizes({2, 1, 2}) + bytes_of<double>({0, 0, 0, .25, .75, 1, 0, 0, .5, .5}) + ints({3, 1, 0}) +
+         sizes({3, 3, 4, 5}) + bytes_of<double>({0, 1, 0, 0, 0, 1, 1, 1, 1}) + "\n$EndNodes\n$Elements\n" +
+         sizes({3, 3, 1, 3}) + ints({2, 1, 2}) + sizes({1, 1, 1, 2, 3}) + ints({3, 1, 4}) + sizes({1, 2, 1, 2, 3, 4}) +
+         ints({3, 2, 4}) + sizes({1, 3, 2, 3, 4, 5}) + "\n$EndElements\n";
 }
 
 // ---- surfaces: the square of the points 0, x, x + y and y, in two triangles

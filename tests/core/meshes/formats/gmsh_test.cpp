@@ -109,6 +109,16 @@ TEST(Gmsh, RefusesATruncatedFile) {
   expect_part(refused(gmsh1.substr(0, gmsh1.find("$ELM"))), "file:8: the file has no cells");
 }
 
+TEST(Gmsh, RefusesAFileOfLinesAndPointsAndSaysThatItHasThem) {
+  const auto file = [](const std::string& elements) {
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 2 0 0\n$EndNodes\n$Elements\n" +
+           elements + "$EndElements\n";
+  };
+  expect_part(refused(file("2\n1 1 0 1 2\n2 1 0 2 3\n")),
+              "the file has 2 edges and no cells; expected at least one triangle, quadrilateral or volume");
+  expect_part(refused(file("2\n1 1 0 1 2\n2 15 0 3\n")), "the file has 1 edge, 1 point element and no cells; expected");
+}
+
 TEST(Gmsh, RefusesSectionsBeforeTheFormatIsKnown) {
   expect_part(refused("$Nodes\n0\n$EndNodes\n"), "file:1: found $Nodes; expected $MeshFormat before it");
   expect_part(refused("\x7f"

@@ -98,6 +98,81 @@ TEST(Ply, ReadsTextAndBytesOfEitherOrderPassingOverOtherProperties) {
   EXPECT_EQ(expect_square(ply_binary(true), MeshFormat::ply).format, "PLY binary_big");
 }
 
+constexpr std::string_view square_of_ply = R"(ply
+format ascii 1.0
+element vertex 4
+property float x
+property float y
+property float z
+)";
+constexpr std::string_view corners_of_square = "end_header 0 0 0 1 0 0 1 1 0 0 1 0 ";
+
+std::string ply_of(std::string_view elements, std::string_view values) {
+  return std::string(square_of_ply) + std::string(elements) + std::string(corners_of_square) + std::string(values);
+}
+
+TEST(Ply, TakesCornersFromTheOnlyListOfIntegersWhateverItsName) {
+  for (const char* name : {"vertex_ids", "v", "vertex_index"})
+    expect_square(
+        ply_of(std::string("element face 2 property list uchar int ") + name + " property list uchar float texcoord ",
+               "3 0 1 2 0  3 0 2 3 2 0.5 0.5"),
+        MeshFormat::ply);
+}
+
+TEST(Ply, TakesAmongSeveralListsOfIntegersTheOneOfAUsualName) {
+  const std::string_view faces = "element face 2 property list uchar int first property list uchar int ";
+  const std::string_view values = "1 3 3 0 1 2  2 0 1 3 0 2 3";
+  expect_square(ply_of(std::string(faces) + "vertex_indices ", values), MeshFormat::ply);
+  expect_part(
+      refusal(ply_of(std::string(faces) + "second ", values), MeshFormat::ply),
+      "elements 'face' with 2 lists of integers; expected one with the numbers of points, or several of which one "
+      "is named vertex_indices or vertex_index");
+  expect_part(refusal(ply_of("element face 1 property int a ", "1"), MeshFormat::ply),
+              "elements 'face' with 0 lists of integers");
+}
+
+// The square by the points 0 1 2 3 0: of the strip 1 2 0 3 its second triangle is turned.
+TEST(Ply, ReadsStripsThatEndByMinusOne) {
+  const auto triangles = [](std::string_view strips, std::string_view elements) {
+    return parse_mesh(ply_of(elements, strips), MeshFormat::ply, "file").mesh.nodes;
+  };
+  const std::string_view one = "element tristrips 1 property list int int vertex_indices ";
+  EXPECT_EQ(triangles("4 1 2 0 3", one), (std::vector<std::uint32_t>{1, 2, 0, 0, 2, 3}));
+  EXPECT_EQ(triangles("8 0 1 2 -1 0 2 3 -1", one), (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
+  EXPECT_EQ(triangles("7 0 1 2 -1 0 2 3", one), (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
+  EXPECT_EQ(triangles("3 0 1 2 3 0 2 3", "element tristrips 2 property list int int vertex_indices "),
+            (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
+  // next to faces, in the order of the header
+  EXPECT_EQ(triangles("3 0 1 2  3 0 2 3",
+                      "element face 1 property list uchar int vertex_indices "
+                      "element tristrips 1 property list int int vertex_indices "),
+            (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
+}
+
+// The third point is twice in the strip 0 1 2 2 3 0 for the triangles 0 1 2 and 2 3 0 to become one strip.
+TEST(Ply, LeavesOutTheTrianglesWithoutAreaThatJoinStrips) {
+  const std::string text = ply_of("element tristrips 1 property list int int vertex_indices ", "6 0 1 2 2 3 0");
+  EXPECT_EQ(parse_mesh(text, MeshFormat::ply, "file").mesh.nodes, (std::vector<std::uint32_t>{0, 1, 2, 3, 2, 0}));
+}
+
+TEST(Ply, RefusesStripsThatAreTooShort) {
+  const std::string_view one = "element tristrips 1 property list int int vertex_indices ";
+  expect_part(refusal(ply_of(one, "6 0 1 2 -1 0 2"), MeshFormat::ply), "a triangle strip with 2 points; expected 3");
+  expect_part(refusal(ply_of(one, "5 0 -1 0 1 2"), MeshFormat::ply), "a triangle strip with 1 point; expected 3");
+  expect_part(refusal(ply_of(one, "3 0 1 4"), MeshFormat::ply), "a triangle has the point 4");
+}
+
+TEST(Ply, SaysWhatElementsItLeavesOut) {
+  EXPECT_EQ(parse_mesh(ply_text, MeshFormat::ply, "file").notices,
+            (std::vector<std::string>{"skipped 1 edge: the body is made of its 2 polygons"}));
+  const std::string text =
+      ply_of("element face 2 property list uchar int v element tetra 2 property list uchar int vertex_indices ",
+             "3 0 1 2 3 0 2 3 4 0 1 2 3 4 0 1 2 3");
+  EXPECT_EQ(
+      expect_square(text, MeshFormat::ply).notices,
+      (std::vector<std::string>{"left out 2 elements of name 'tetra': only vertex, face and tristrips are read"}));
+}
+
 TEST(Ply, RefusesMoreElementsThanTheFileHolds) {
   for (const auto& text : {std::string(ply_text), ply_binary(false)}) {
     expect_part(refusal(with(text, "element vertex 4", "element vertex 1000000000000000000"), MeshFormat::ply),

@@ -62,7 +62,7 @@ TEST(VtkPolyData, RefusesCellsThatItCannotHold) {
               "cell 2 is a polygon of 5 corners; expected triangles and quadrilaterals: split larger");
   expect_part(refused(with(vtk_polygons, "TRIANGLE_STRIPS 1 4\n3 0 2 3", "TRIANGLE_STRIPS 1 3\n2 0 2")),
               "cell 3 is a triangle strip with 2 points; expected 3 points or more");
-  expect_part(refused(with(vtk_polygons, "3 0 2 3\n", "3 0 2 2\n")), "has the point 2 twice");
+  expect_part(refused(with(vtk_polygons, "3 0 1 2\n", "3 0 1 1\n")), "has the point 1 twice");
 }
 
 TEST(VtkPolyData, RefusesListsOfAGrid) {
