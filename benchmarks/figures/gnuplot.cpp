@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <string_view>
@@ -22,6 +23,27 @@ std::string colour(const PlotSeries& series) {
   return fmt::format("\"#{:02x}{}\"", clear, series.colour.substr(1));
 }
 
+/// Does DejaVu Sans have it? Latin, Greek and Cyrillic letters, punctuation, arrows and mathematical signs.
+bool is_in_font(std::uint32_t code) {
+  return code <= 0x52f || (code >= 0x1e00 && code <= 0x1fff) || (code >= 0x2000 && code <= 0x22ff);
+}
+
+/// A line that is drawn, with "?" for each character that the font lacks: the PNG and the GIF would show a black box as
+/// high as the picture. The SVG has it too, since both pictures are drawn from one script and one file of data.
+std::string drawn_text(std::string_view text) {
+  const std::string line = terminal_text(text);  // which is UTF-8 and has no control characters
+  std::string out;
+  for (std::size_t at = 0; at < line.size();) {
+    const auto first = static_cast<unsigned char>(line[at]);
+    const std::size_t bytes = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+    std::uint32_t code = bytes == 1 ? first : first & (0x7fu >> bytes);
+    for (std::size_t k = 1; k < bytes; ++k) code = code << 6 | (static_cast<unsigned char>(line[at + k]) & 0x3fu);
+    out += is_in_font(code) ? line.substr(at, bytes) : "?";
+    at += bytes;
+  }
+  return out;
+}
+
 /// Length of a text in UTF-8.
 std::size_t letters(const std::string& text) {
   return static_cast<std::size_t>(
@@ -36,7 +58,7 @@ std::string quoted_title(const std::string& text, int width, double font, int li
   std::vector<std::string> broken(1);
   std::istringstream words(text);
   for (std::string word; words >> word;) {
-    word = shortened(terminal_text(word), most);
+    word = shortened(drawn_text(word), most);
     std::string& line = broken.back();
     if (line.empty())
       line = word;
@@ -58,7 +80,7 @@ std::string quoted_title(const std::string& text, int width, double font, int li
 
 std::string data_string(const std::string& text) {
   std::string out = "\"";
-  for (const char c : terminal_text(text)) {
+  for (const char c : drawn_text(text)) {
     if (c == '"' || c == '\\') out += '\\';
     out += c;
   }
@@ -73,7 +95,7 @@ std::string DataBlocks::add(const std::string& what, const std::string& lines) {
 }
 
 std::string plot_element(const PlotSeries& s, const std::string& data) {
-  const std::string title = s.title.empty() ? "notitle" : "title " + gnuplot_string(shortened(s.title, 80));
+  const std::string title = s.title.empty() ? "notitle" : "title " + gnuplot_string(shortened(drawn_text(s.title), 80));
   std::string look = s.staircase                     ? "steps"
                      : s.width > 0.0 && s.symbol > 0 ? "linespoints"
                      : s.width > 0.0                 ? "lines"

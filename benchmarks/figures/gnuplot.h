@@ -8,7 +8,8 @@
 
 namespace dartboard {
 
-/// Text in a data file, where gnuplot runs nothing and treats only double quotes specially.
+/// A label in a data file, where gnuplot runs nothing and treats only double quotes specially; "?" stands for each
+/// character that the font of the pictures lacks, here and in titles.
 std::string data_string(const std::string& text);
 
 /// A file in the folder that the script runs in, as a script names it; never a pipe, which gnuplot would open for a

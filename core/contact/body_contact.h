@@ -127,8 +127,6 @@ class BodyContact final : public ForceTerm {
   std::span<const BodyTouch> find_lost(std::span<const Eigen::Vector3d> x);
   /// Has the last call seen nothing that a later one can find lost?
   bool has_none_to_lose() const { return before_.empty(); }
-  /// The contacts that `touching` or `find_lost` found last; valid if no other function was called since.
-  std::span<const BodyTouch> found_touching() const { return touching_; }
 
   /// [m] The least altitude of a tetrahedron at these places; infinite without tetrahedra. A place that moves further
   /// than half of it in a step may pass through.

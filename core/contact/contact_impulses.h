@@ -83,6 +83,9 @@ class ContactImpulses {
   void change_part(const Contacts& contacts, const MovedSamples& moved_to, std::span<const std::uint32_t> vertices);
 
   const ContactLosses& losses() const { return losses_; }
+  /// Go back to sums of an earlier state.
+  /// pre  between steps
+  void restore(const ContactLosses& losses) { losses_ = losses; }
   /// pre  between steps
   template <class Archive>
   void state(Archive& archive) {

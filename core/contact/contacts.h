@@ -23,8 +23,9 @@ struct Contacts {
 
   Contacts(ObstacleContact* of_obstacles = nullptr, BodyContact* of_bodies = nullptr)
       : obstacles(of_obstacles), bodies(of_bodies) {}
-  Contacts(ObstacleContact& alone) : Contacts(&alone) {}
 
+  /// The term with obstacles alone, or that between bodies.
+  Contacts only(bool of_bodies) const { return {of_bodies ? nullptr : obstacles, of_bodies ? bodies : nullptr}; }
   bool any() const { return obstacles != nullptr || bodies != nullptr; }
   /// Whether a law has friction, or loses speed: then ContactImpulses are needed.
   bool has_friction() const;

@@ -9,7 +9,8 @@
 #include "core/base/counted.h"
 #include "core/base/thread_team.h"
 #include "core/plain/error.h"
-#include "core/scene/run/scene_warnings.h"
+#include "core/scene/file/scene_problem.h"
+#include "core/scene/survey/scene_warnings.h"
 
 namespace dartboard {
 namespace fs = std::filesystem;
@@ -65,11 +66,13 @@ RecordedRun::RecordedRun(SceneFile scene, RecordPlan plan, std::unique_ptr<Check
     : plan_(std::move(plan)),
       settled_(settle(scene, plan_, checkpoint.get())),
       scene_(std::make_unique<SceneFile>(std::move(scene))),
-      simulation_(std::make_unique<Simulation>(*scene_)),
-      warnings_(warnings_of(*scene_, *simulation_)),
-      removed_at_start_(simulation_->body().removed_mass()),
       checkpoint_(std::move(checkpoint)),
       claim_(std::move(claim)) {
+  const Problem problem = make_problem(*scene_);
+  simulation_ = std::make_unique<Simulation>(*scene_, problem);
+  survey_ = survey_scene(*scene_, problem, *simulation_);
+  warnings_ = warnings_of(*scene_, survey_, *simulation_);
+  removed_at_start_ = simulation_->body().removed_mass();
   simulation_->watch_events(true);
 }
 

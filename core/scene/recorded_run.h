@@ -17,6 +17,7 @@
 #include "core/scene/run/scene_run.h"
 #include "core/scene/run/scene_verdict.h"
 #include "core/scene/settled_accuracy.h"
+#include "core/scene/survey/scene_survey.h"
 
 namespace dartboard {
 
@@ -43,6 +44,8 @@ class RecordedRun {
   const SceneFile& scene() const { return *scene_; }
   /// At the start of the scene until `open` or `run`, for a continued run too.
   const Simulation& simulation() const { return *simulation_; }
+  /// What is known before the first step.
+  const SceneSurvey& survey() const { return survey_; }
   /// The warnings before the first step.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// The choice of the step, if one was made; a continued run keeps that of its start.
@@ -88,8 +91,9 @@ class RecordedRun {
   std::optional<SettledAccuracy> settled_;
   std::unique_ptr<SceneFile> scene_;
   std::unique_ptr<Simulation> simulation_;
+  SceneSurvey survey_;
   std::vector<std::string> warnings_;
-  double removed_at_start_;
+  double removed_at_start_ = 0.0;
   std::unique_ptr<Checkpoint> checkpoint_;  // null from the start
   std::optional<FolderClaim> claim_;        // of a continued run, until `open`
   std::optional<SceneOutput> output_;

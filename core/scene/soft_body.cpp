@@ -1,6 +1,9 @@
 #include "core/scene/soft_body.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/plain/error.h"
@@ -13,6 +16,10 @@ namespace dartboard {
 namespace {
 
 std::unique_ptr<SimulatedBody> body_of(const Problem& problem) {
+  for (const Material& material : problem.cell_materials().all())
+    if (material.model == Model::springs && material.poisson != Material{}.poisson)
+      throw InputError(fmt::format(
+          "a Poisson's ratio of {} for springs, which have none; expected another Material::model", material.poisson));
   BodyNeeds needs = body_needs(problem, storage_of(problem.mesh) != Storage::links);
   needs.rest = true;  // for the displacement in frames
   return make_simulated_body(problem, needs);
@@ -28,6 +35,7 @@ SoftBody::SoftBody(SoftBody&&) noexcept = default;
 SoftBody& SoftBody::operator=(SoftBody&&) noexcept = default;
 
 void SoftBody::step(double h) {
+  if (!(h > 0.0) || !std::isfinite(h)) throw InputError(fmt::format("a step of {} s; expected one above 0", h));
   const StepResult result = integrator_->step(system(), body_->motion(), h);
   if (!result.ok()) throw SolverError(to_string(result));
   time_ += h;

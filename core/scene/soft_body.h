@@ -37,8 +37,8 @@ class SoftBody {
 
   /// One step of h [s].
   ///
-  /// throws  SolverError with the diagnosis of the integrator: a position or velocity that is not finite, an equation
-  ///         without a solution. The body must then not be moved any further
+  /// throws  InputError unless h is above 0 and finite; SolverError with the diagnosis of the integrator: a position or
+  ///         velocity that is not finite, an equation without a solution. The body must then not be moved any further
   void step(double h);
   double time() const { return time_; }  // [s] the sum of all steps
 

@@ -557,6 +557,22 @@ TEST(Recommend, NeedsASceneAndAnErrorOrDrawsThemItself) {
   }
 }
 
+TEST(Scene, KeysOfOneObjectAreItsSectionAlone) {
+  const Answer refine = run("scene --keys refine", ""), all = run("scene --keys", "");
+  EXPECT_EQ(refine.status, 0);
+  EXPECT_EQ(refine.out.rfind("## refine\n", 0), 0u) << refine.out;
+  EXPECT_EQ(refine.out.find("\n## "), std::string::npos) << refine.out;
+  EXPECT_EQ(all.status, 0);
+  EXPECT_NE(all.out.find("\n" + refine.out), std::string::npos);
+}
+
+TEST(Scene, KeysOfAnUnknownObjectAreAUsageErrorThatNamesAll) {
+  const Answer answer = run("scene --keys refinement");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_NE(answer.out.find("no section 'refinement'; expected one of: scene, body, "), std::string::npos)
+      << answer.out;
+}
+
 TEST(Scene, SchemaIsJson) {
   const Answer answer = run("scene --schema", "");
   EXPECT_EQ(answer.status, 0);

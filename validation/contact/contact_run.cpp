@@ -48,8 +48,8 @@ void look_at_overlaps(const SceneFile& scene, const std::vector<std::size_t>& fi
 }  // namespace
 
 ContactRun judge_run(const SceneFile& scene, std::size_t looks, const std::function<void(Simulation&)>& meddles) {
-  Simulation simulation(scene);
-  const std::vector<std::size_t> first_cell = make_problem(scene).bodies.cell;
+  const Problem problem = make_problem(scene);
+  Simulation simulation(scene, problem);
   ContactRun run{.scene = scene.name,
                  .allowed = scene.touches.front().law.depth,
                  .alone = scene.obstacles.empty() && scene.gravity.isZero(0.0) && scene.fixed.empty() &&
@@ -62,7 +62,7 @@ ContactRun judge_run(const SceneFile& scene, std::size_t looks, const std::funct
     while (simulation.steps_done() < until)
       if (simulation.advance()) return run;
     if (meddles) meddles(simulation);
-    look_at_overlaps(scene, first_cell, simulation, run);
+    look_at_overlaps(scene, problem.bodies.cell, simulation, run);
     ++run.looks;
     const Diagnostics now = simulation.diagnostics();
     run.contacts = std::max(run.contacts, now.contact->contacts);

@@ -222,9 +222,7 @@ FrozenScene freeze(const SceneFile& file, const Problem& problem, std::vector<Ei
   });
   scene.needs = needs_of(scene.file, problem).body;
   scene.edge = mean_edge(problem.mesh);
-  if (file.has_contact())
-    scene.contact_share =
-        std::max(largest_share(forecast_contacts(file, problem)), largest_share(forecast_touches(file, problem)));
+  if (file.has_contact()) scene.contact_share = expect_contacts(file, problem).share();
   FrozenBody::Scout scout(scene);
   scene.changes = scout.changes();
   for (std::size_t e = 0; e < scene.file.events.size(); ++e)
@@ -248,7 +246,7 @@ FrozenBody::FrozenBody(const FrozenScene& scene)
     body_->motion().x[k] = scene.initial_position[body_->vertices().point[k]];
   if (scene.file.has_contact()) {
     contact_ = std::make_unique<SceneContact>(body_->contacts(), false);
-    contact_->start(body_->vertices().position, {}, {}, 0.0);
+    contact_->start(body_->vertices().position, {}, 0.0);
     look_at_contact();
   }
   while (next_ < scene.changes.size() && scene.changes[next_].time == 0.0) pass();

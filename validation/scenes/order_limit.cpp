@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <variant>
 
 namespace dartboard {
@@ -13,8 +14,9 @@ OrderLimit order_limit(const SceneFile& file) {
     found.most = order;
     found.because = std::move(because);
   };
-  found.late_loads = changes_in_every_step(file);
-  if (found.late_loads) limit(2.0, "loads that change in time");
+  if (changes_in_every_step(file)) limit(2.0, "loads that change in time");
+  // driven vertices are where they should be at the end of each step, for every method
+  found.late_loads = std::ranges::any_of(file.forces, [](const SceneForce& force) { return !force.factor.empty(); });
   if (!file.touches.empty()) limit(0.0, "bodies, whose nearest face changes");
   for (const SceneObstacle& o : file.obstacles) {
     if (std::holds_alternative<Block>(o.obstacle.shape)) limit(0.0, "boxes, whose nearest face changes");

@@ -16,7 +16,7 @@ struct OrderLimit {
   double most = std::numeric_limits<double>::infinity();  // 0: none is promised
   std::string because;                                    // "an energy of exponent 3"; empty without a limit
 
-  bool late_loads = false;  // a method of several steps takes them half a step late
+  bool late_loads = false;  // forces over time, which a method of several steps takes half a step late
 
   bool is_promised() const { return most > 0.0; }
   /// The order to be expected of a method.
@@ -31,7 +31,8 @@ struct OrderLimit {
 ///     energy ~ d^p           order p            the derivative of order p jumps
 ///     speed that is lost     order p/2          the damping ~ d^(p/2 - 1) does so
 ///     moving obstacles       order 2            they rest half way through a step
-///     loads over time        order 2            they are their mean during a step; methods of several steps: order 1
+///     forces over time       order 2            they are their mean during a step; methods of several steps: order 1
+///     drives over time       order 2            vertices go straight during a step
 ///     friction               order 1            it is constant during a step
 ///     blocks, bodies         none               the depth has kinks where the nearest face changes
 OrderLimit order_limit(const SceneFile& file);

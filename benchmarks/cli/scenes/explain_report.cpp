@@ -8,13 +8,15 @@
 #include "benchmarks/cli/scenes/simulation_json.h"
 #include "benchmarks/harness/table.h"
 #include "benchmarks/harness/tell.h"
+#include "core/base/counted.h"
 
 namespace dartboard {
 namespace {
 
 std::string counts_of(const ScenePlan& plan) {
-  return fmt::format("{} vertices, {} edges, {} faces, {} cells, {} darts", plan.counts.vertices, plan.counts.edges,
-                     plan.counts.faces, plan.counts.cells, plan.darts);
+  const CellCounts& n = plan.counts;  // no body has one vertex
+  return fmt::format("{} vertices, {}, {}, {}, {}", n.vertices, counted(n.edges, "edge"), counted(n.faces, "face"),
+                     counted(n.cells, "cell"), counted(plan.darts, "dart"));
 }
 
 std::string step_text(double seconds) {
@@ -23,7 +25,7 @@ std::string step_text(double seconds) {
 
 /// A forecast of the contacts.
 std::string contact_text(const SceneFile& scene, const ContactPlan& plan) {
-  Table table({{plan.touches.empty() ? "obstacle" : "key"},
+  Table table({{plan.expected.bodies.empty() ? "obstacle" : "key"},
                {"carries"},
                {"mass behind kg/m^2", Align::right},
                {"depth at rest m", Align::right},
@@ -44,11 +46,11 @@ std::string contact_text(const SceneFile& scene, const ContactPlan& plan) {
           "otherwise. ",
           law.restitution, path, f.stiffness_ratio);
   };
-  for (std::size_t k = 0; k < plan.obstacles.size(); ++k) {
-    add(scene.obstacles[k].path, scene.obstacles[k].law, plan.obstacles[k]);
-    look_at_bounce(scene.obstacles[k].path, scene.obstacles[k].law, plan.obstacles[k]);
+  for (std::size_t k = 0; k < plan.expected.obstacles.size(); ++k) {
+    add(scene.obstacles[k].path, scene.obstacles[k].law, plan.expected.obstacles[k]);
+    look_at_bounce(scene.obstacles[k].path, scene.obstacles[k].law, plan.expected.obstacles[k]);
   }
-  for (const TouchForecast& touch : plan.touches) {
+  for (const TouchForecast& touch : plan.expected.bodies) {
     add(touch.path, touch.law, touch.contact);
     look_at_bounce(touch.path, touch.law, touch.contact);
   }
@@ -77,8 +79,8 @@ std::string sleep_text(const SceneSleep& sleep) {
 }  // namespace
 
 std::string to_text(const SceneFile& scene, const ScenePlan& plan, const std::optional<MeasuredSteps>& measured) {
-  std::string text = fmt::format("{}\n{}; {}; {} steps of {:.6g} s\n", one_line(scene.name), plan.map, counts_of(plan),
-                                 plan.steps, scene.step);
+  std::string text = fmt::format("{}\n{}; {}; {} of {:.6g} s\n", one_line(scene.name), plan.map, counts_of(plan),
+                                 counted(plan.steps, "step"), scene.step);
   for (const SelectionCount& count : plan.selections) text += to_string(count) + "\n";
   for (const std::string& remark : plan.remarks) text += remark + "\n";
   text += "\n";
@@ -97,12 +99,11 @@ std::string to_text(const SceneFile& scene, const ScenePlan& plan, const std::op
       "Bytes are those of the elements of all containers that live as long as the run, asked of the body as it was "
       "built; of a factor, its numbers.\n";
   if (!measured) return text;
-  return text +
-         fmt::format(
-             "\nMeasured: {:.0f} ns of processor time per step, with events and output, over {} of {} steps; the "
-             "median of three runs.\n",
-             measured->ns, measured->steps == plan.steps ? "all" : fmt::format("the first {}", measured->steps),
-             plan.steps);
+  return text + fmt::format(
+                    "\nMeasured: {:.0f} ns of processor time per step, with events and output, over {} of {}; the "
+                    "median of three runs.\n",
+                    measured->ns, measured->steps == plan.steps ? "all" : fmt::format("the first {}", measured->steps),
+                    counted(plan.steps, "step"));
 }
 
 nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan,
@@ -131,8 +132,8 @@ nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan,
                                    {"stable_step_of_body", or_null(plan.contact->body_step)},
                                    {"contact_rate", plan.contact->contact_rate},
                                    {"body_rate", plan.contact->body_rate}};
-    for (std::size_t k = 0; k < plan.contact->obstacles.size(); ++k) {
-      const ContactForecast& f = plan.contact->obstacles[k];
+    for (std::size_t k = 0; k < plan.contact->expected.obstacles.size(); ++k) {
+      const ContactForecast& f = plan.contact->expected.obstacles[k];
       contact["obstacles"].push_back({{"path", scene.obstacles[k].path},
                                       {"mass_behind", f.mass_behind},
                                       {"depth_at_rest", f.depth_at_rest},
@@ -140,7 +141,7 @@ nlohmann::ordered_json to_json(const SceneFile& scene, const ScenePlan& plan,
                                       {"depth_at_impact", f.depth_at_impact},
                                       {"allowed_depth", scene.obstacles[k].law.depth}});
     }
-    for (const TouchForecast& touch : plan.contact->touches)
+    for (const TouchForecast& touch : plan.contact->expected.bodies)
       contact["bodies"].push_back({{"path", touch.path},
                                    {"of", {touch.first, touch.second}},
                                    {"mass_behind", touch.contact.mass_behind},

@@ -13,7 +13,7 @@
 #include "core/base/counted.h"
 #include "core/scene/output/scene_output.h"
 #include "core/scene/run/body_in_words.h"
-#include "core/scene/run/scene_warnings.h"
+#include "core/scene/survey/scene_warnings.h"
 
 namespace dartboard {
 namespace {
@@ -26,6 +26,18 @@ std::string in_words(std::span<const Model> models) {
   for (const Model model : models)
     said += fmt::format("{}{}{}", said.empty() ? "" : ", ", name(model), model == Model::springs ? "" : " elements");
   return said;
+}
+
+/// The advice on the step of a run that diverged; empty where every step is stable.
+std::string step_advice(const Divergence& divergence, const SimulationReport& r) {
+  if (!std::isfinite(divergence.stable)) return "";
+  const double step = r.simulation.step();
+  if (step > divergence.stable)
+    return fmt::format(" A step of {:.6g} s is too long for that state: at most {:.6g} s is stable.", step,
+                       divergence.stable);
+  const bool has_elements = !r.survey.models.empty() && r.survey.models.front() != Model::springs;
+  return fmt::format(" The longest stable step of that state is {:.6g} s{}.", divergence.stable,
+                     has_elements ? ", and a shorter one where elements are deformed further" : "");
 }
 
 }  // namespace
@@ -74,11 +86,13 @@ Table summary_of(const SimulationReport& r) {
   return table;
 }
 
-std::string opening_of(const SceneFile& scene, const Simulation& simulation, std::string_view step_in_words) {
-  std::string said = fmt::format("{}\n{}, {}, h = {:.6g} s ({})\n{}: {}\n", one_line(scene.name),
-                                 simulation.body().map_name(), scene.integrator, scene.step, step_in_words,
-                                 in_words(simulation.models()), in_words(simulation.body()));
-  for (const SelectionCount& count : simulation.selections()) said += to_string(count) + "\n";
+std::string opening_of(const SceneFile& scene, const SceneSurvey& survey, const Simulation& simulation,
+                       std::string_view step_in_words) {
+  std::string said =
+      fmt::format("{}\n{}, {}, h = {:.6g} s ({})\n{}: {}\n", one_line(scene.name), simulation.body().map_name(),
+                  scene.integrator, scene.step, step_in_words, in_words(survey.models), in_words(simulation.body()));
+  for (const SelectionCount& count : survey.selections) said += to_string(count) + "\n";
+  if (!survey.cheaper.empty()) said += "note: " + survey.cheaper + "\n";
   return said + "\n";
 }
 
@@ -105,11 +119,11 @@ std::string to_text(const SimulationReport& r) {
         drift_text(jumps.stiffness), drift_text(jumps.momentum), drift_text(jumps.energy),
         jumps.contact == 0.0 ? "" : fmt::format(", energy of contacts {}", drift_text(jumps.contact)));
   say("hash of the last state {:016x}\n", r.simulation.body().state_hash());
-  for (const std::string& warning : warnings_of(r.scene, r.simulation))
+  for (const std::string& warning : warnings_of(r.scene, r.survey, r.simulation))
     if (std::ranges::find(r.warned, warning) == r.warned.end()) say("warning: {}\n", warning);
   if (r.result.divergence)
-    say("\nThe motion {}. The state of step {}, t = {:.6g} s is kept, and what was written until then.\n",
-        to_string(*r.result.divergence), r.kept_step(), r.result.last.time);
+    say("\nThe motion {}. The state of step {}, t = {:.6g} s is kept, and what was written until then.{}\n",
+        to_string(*r.result.divergence), r.kept_step(), r.result.last.time, step_advice(*r.result.divergence, r));
   if (r.result.refusal) say("\nThe motion {}. What was written until then is kept.\n", to_string(*r.result.refusal));
   if (!r.expected.empty()) {
     Table table(
@@ -135,7 +149,7 @@ nlohmann::ordered_json to_json(const SimulationReport& r) {
   nlohmann::ordered_json json{{"scene", r.scene.name},
                               {"map", r.simulation.body().map_name()},
                               {"integrator", r.scene.integrator},
-                              {"selections", to_json(r.simulation.selections())},
+                              {"selections", to_json(r.survey.selections)},
                               {"steps", r.simulation.steps_done()},
                               {"first", to_json(r.result.first, r.simulation.dimension())},
                               {"last", to_json(r.result.last, r.simulation.dimension())},
@@ -155,12 +169,13 @@ nlohmann::ordered_json to_json(const SimulationReport& r) {
                           {"taken_back", d->taken_back},
                           {"kept_step", r.kept_step()},
                           {"kept_time", r.result.last.time},
+                          {"stable", number(d->stable)},
                           {"value", number(d->value)}};
   json["refusal"] = nullptr;
   if (const auto& refusal = r.result.refusal)
     json["refusal"] = {
         {"step", refusal->step}, {"time", refusal->time}, {"why", refusal->why}, {"stable", number(refusal->stable)}};
-  json["warnings"] = warnings_of(r.scene, r.simulation);
+  json["warnings"] = warnings_of(r.scene, r.survey, r.simulation);
   json["idle_events"] = r.simulation.idle_events();
   json["expected"] = nlohmann::ordered_json::array();
   for (const ExpectedRow& row : r.expected)

@@ -14,12 +14,14 @@
 #include "core/scene/run/scene_verdict.h"
 #include "core/scene/run/simulation.h"
 #include "core/scene/settled_accuracy.h"
+#include "core/scene/survey/scene_survey.h"
 
 namespace dartboard {
 
 /// Everything that the summary needs.
 struct SimulationReport {
   const SceneFile& scene;
+  const SceneSurvey& survey;
   const Simulation& simulation;
   const RunResult& result;
   std::optional<SettledAccuracy> settled;  // where the scene asks for an accuracy
@@ -54,7 +56,8 @@ Table summary_of(const SimulationReport& report);
 
 /// The lines before a run: what is simulated and with which step, what the body is made of, and what each selection of
 /// the scene holds.
-std::string opening_of(const SceneFile& scene, const Simulation& simulation, std::string_view step_in_words);
+std::string opening_of(const SceneFile& scene, const SceneSurvey& survey, const Simulation& simulation,
+                       std::string_view step_in_words);
 
 /// The lines after a run.
 std::string to_text(const SimulationReport& report);

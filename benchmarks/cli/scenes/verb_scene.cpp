@@ -13,9 +13,10 @@
 #include "core/base/counted.h"
 #include "core/scene/file/keys/scene_pages.h"
 #include "core/scene/file/scene_file.h"
+#include "core/scene/file/scene_problem.h"
 #include "core/scene/run/body_in_words.h"
-#include "core/scene/run/scene_warnings.h"
 #include "core/scene/run/simulation.h"
+#include "core/scene/survey/scene_warnings.h"
 
 namespace dartboard {
 namespace {
@@ -29,10 +30,12 @@ void check_scene(const std::string& given, bool as_json) {
     if (scene.integrator.empty()) scene.integrator = "rk4";
     scene.unstable_step = UnstableStep::warn;
   }
-  const Simulation simulation(scene);
+  const Problem problem = make_problem(scene);
+  const Simulation simulation(scene, problem);
+  const SceneSurvey survey = survey_scene(scene, problem, simulation);
   const CellCounts n = simulation.body().counts();
   const std::vector<std::string> warnings =
-      scene.accuracy ? std::vector<std::string>{} : warnings_of(scene, simulation);
+      scene.accuracy ? std::vector<std::string>{} : warnings_of(scene, survey, simulation);
   if (as_json) {
     const nlohmann::ordered_json json{{"scene", scene.file},
                                       {"map", simulation.body().map_name()},
@@ -42,7 +45,7 @@ void check_scene(const std::string& given, bool as_json) {
                                       {"cells", n.cells},
                                       {"components", n.components},
                                       {"body", in_words(simulation.body())},
-                                      {"selections", to_json(simulation.selections())},
+                                      {"selections", to_json(survey.selections)},
                                       {"warnings", warnings}};
     return tell("{}\n", json_text(json, 2));
   }
@@ -53,7 +56,7 @@ void check_scene(const std::string& given, bool as_json) {
        simulation.body().map_name(), n.vertices, n.edges, n.faces, n.cells, counted(n.components, "component"), steps,
        counted(scene.events.size(), "event"));
   tell("{}\n", in_words(simulation.body()));
-  for (const SelectionCount& count : simulation.selections()) tell("{}\n", to_string(count));
+  for (const SelectionCount& count : survey.selections) tell("{}\n", to_string(count));
   for (const std::string& warning : warnings) tell(stderr, "warning: {}\n", warning);
 }
 
@@ -61,21 +64,24 @@ void check_scene(const std::string& given, bool as_json) {
 
 void add_scene(CLI::App& app, Outcome& outcome) {
   struct Options {
-    bool schema = false, keys = false, json = false;
-    std::string check;
+    bool schema = false, json = false;
+    std::string object, check;
   };
   auto options = std::make_shared<Options>();
   auto* verb = app.get_subcommand("scene");
   auto* what = verb->add_option_group("what");
   what->add_flag("--schema", options->schema, "print the JSON Schema of scene files");
-  what->add_flag("--keys", options->keys, "print the reference page of all keys, in Markdown");
+  auto* keys = what->add_option("--keys", options->object,
+                                "print the reference page of all keys, in Markdown, or its section about one object")
+                   ->expected(0, 1)
+                   ->type_name("[OBJECT]");
   what->add_option("--check", options->check, "read and assemble a scene, and run nothing");
   what->require_option(1);
   verb->add_flag("--json", options->json, "print JSON; schemas are JSON anyway");
-  verb->callback([options, &outcome] {
+  verb->callback([options, keys, &outcome] {
     outcome.exit_code = exit_agrees;
     if (options->schema) tell("{}\n", json_text(scene_schema(), 2));
-    if (options->keys) tell("{}", scene_reference());
+    if (keys->count() > 0) tell("{}", options->object.empty() ? scene_reference() : scene_reference(options->object));
     if (!options->check.empty()) check_scene(options->check, options->json);
   });
 }

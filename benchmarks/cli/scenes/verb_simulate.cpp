@@ -12,6 +12,7 @@
 
 #include "benchmarks/cli/interrupt.h"
 #include "benchmarks/cli/scene_names.h"
+#include "benchmarks/cli/scenes/earlier_run.h"
 #include "benchmarks/cli/scenes/scene_verbs.h"
 #include "benchmarks/cli/scenes/simulate_report.h"
 #include "benchmarks/figures/album.h"
@@ -21,12 +22,13 @@
 #include "benchmarks/harness/manifest.h"
 #include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/tell.h"
+#include "core/base/counted.h"
 #include "core/base/thread_team.h"
 #include "core/plain/error.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/output/atomic_file.h"
 #include "core/scene/recorded_run.h"
-#include "core/scene/run/scene_warnings.h"
+#include "core/scene/survey/scene_warnings.h"
 #include "core/time/integrators.h"
 
 namespace dartboard {
@@ -34,7 +36,7 @@ namespace {
 
 struct SimulateOptions {
   std::string scene, out, continued;
-  bool json = false, quick = false, picture = false, film = false;
+  bool json = false, quick = false, picture = false, film = false, replace = false;
   std::optional<std::uint64_t> steps, seed;
   unsigned threads = 0;
 
@@ -54,7 +56,8 @@ class Watcher : public RunWatcher {
   void stepped(const Simulation& simulation) override {
     for (RunWatcher* picture : pictures_) picture->stepped(simulation);
     if (simulation.steps_done() % steps_per_report_ == 0)
-      progress_.advance(fmt::format("t = {:.4g} s, {} operations", simulation.time(), simulation.operations()));
+      progress_.advance(
+          fmt::format("t = {:.4g} s, {}", simulation.time(), counted(simulation.operations(), "operation")));
   }
 
  private:
@@ -107,7 +110,7 @@ void simulate(const SimulateOptions& options, const StepChoice& choose_step, Out
   use_threads(options.threads);  // a step for an accuracy is chosen on one thread
   const SceneFile& scene = run.scene();
   const Simulation& simulation = run.simulation();
-  const std::string opening = opening_of(scene, simulation, step_in_words(simulation, scene));
+  const std::string opening = opening_of(scene, run.survey(), simulation, step_in_words(simulation, scene));
   // in a continued run, too, pictures begin at its start, where nothing has been cut
   std::optional<Album> album;
   std::optional<Film> film;
@@ -122,6 +125,7 @@ void simulate(const SimulateOptions& options, const StepChoice& choose_step, Out
     manifest = manifest_of(scene, options, outcome);
     if (run.settled()) manifest["settled"] = *run.settled();
   }
+  if (options.replace) empty_run_folder(options.out);
   run.open();
   const auto write_manifest = [&] {
     if (!run.folder().empty()) write_whole(run.folder() / "manifest.json", json_text(manifest, 2) + "\n");
@@ -146,6 +150,7 @@ void simulate(const SimulateOptions& options, const StepChoice& choose_step, Out
     run.run(watcher);
   }
   SimulationReport report{.scene = scene,
+                          .survey = run.survey(),
                           .simulation = simulation,
                           .result = run.result(),
                           .settled = run.settled(),
@@ -208,6 +213,10 @@ void add_simulate(CLI::App& app, Outcome& outcome, StepChoice choose_step) {
       "excepted. A run that has come to its end and left a checkpoint goes on when its scene has been given a longer "
       "'duration'");
   continued->excludes(scene)->excludes(out);
+  verb->add_flag(
+          "--replace", options->replace,
+          "remove the files of an earlier run from the folder of --out; nothing is removed if it holds any others")
+      ->needs(out);
   verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder");
   verb->add_flag("--film", options->film, "draw the body as it moves, an animated GIF, into that folder");
   verb->add_option("--steps", options->steps, "stop after so many steps");
@@ -224,6 +233,9 @@ void add_simulate(CLI::App& app, Outcome& outcome, StepChoice choose_step) {
     if (options->out.empty() && options->continued.empty())
       for (const auto& [asked, name] : {std::pair(options->picture, "--picture"), {options->film, "--film"}})
         if (asked) throw CLI::RequiresError(name, "--out or --continue");
+    if (!options->replace && !options->out.empty() && is_run_folder(options->out))
+      throw IoError(fmt::format(
+          "{}: holds an earlier run; expected a new or empty folder for the results, or --replace", options->out));
     simulate(*options, choose_step, outcome);
   });
 }

@@ -12,6 +12,7 @@
 #include "benchmarks/harness/json_number.h"
 #include "benchmarks/harness/table.h"
 #include "benchmarks/harness/tell.h"
+#include "core/base/counted.h"
 #include "core/plain/error.h"
 #include "core/scene/run/simulation.h"
 #include "core/time/integrators.h"
@@ -154,15 +155,17 @@ void find_remedies(StepExplanation& e, const Scheme& scheme, const Horizon& hori
     c.inverse_mass[vertex] /= 2.0;
   };
   if (!e.springs.empty()) {
+    const std::string springs = counted(e.springs.size(), "spring");
     remedy("halve the stiffness of the first spring", scale_springs(1, 0.5));
     remedy("remove the first spring", scale_springs(1, 0.0));
-    remedy(fmt::format("halve the stiffness of the {} springs", e.springs.size()), scale_springs(shown, 0.5));
-    remedy(fmt::format("remove the {} springs", e.springs.size()), scale_springs(shown, 0.0));
+    remedy("halve the stiffness of the " + springs, scale_springs(shown, 0.5));
+    remedy("remove the " + springs, scale_springs(shown, 0.0));
   }
   remedy("double the mass of the first vertex", [&](SpringColumns& c) { double_mass(c, e.vertices.front().number); });
-  remedy(fmt::format("double the mass of the {} vertices", e.vertices.size()), [&](SpringColumns& c) {
-    for (const StepShare& v : e.vertices) double_mass(c, v.number);
-  });
+  remedy(fmt::format("double the mass of the {} {}", e.vertices.size(), e.vertices.size() == 1 ? "vertex" : "vertices"),
+         [&](SpringColumns& c) {
+           for (const StepShare& v : e.vertices) double_mass(c, v.number);
+         });
   remedy("hold the first vertex", [&e](SpringColumns& c) { c.inverse_mass[e.vertices.front().number] = 0.0; });
   if (e.body.terms.empty())
     remedy("halve all stiffnesses", [](SpringColumns& c) {

@@ -9,6 +9,7 @@
 
 #include "benchmarks/harness/json_number.h"
 #include "benchmarks/harness/tell.h"
+#include "core/base/counted.h"
 #include "core/plain/nan_maximum.h"
 
 namespace dartboard {
@@ -124,10 +125,10 @@ Table candidates_table(const Recommendation& r) {
 std::string text_of(const Recommendation& r, const RecommendedScene* scene, bool realtime, double duration) {
   const SceneFeatures& f = r.features;
   std::string text = fmt::format(
-      "{} with an error of at most {:.3g} edges\n{}, {} events; omega_max {:.4g} .. {:.4g} 1/s, "
+      "{} with an error of at most {:.3g} edges\n{}, {}; omega_max {:.4g} .. {:.4g} 1/s, "
       "damping ratio there {:.2g}, T omega_max = {:.4g}; a force evaluation takes {:.3g} us here\n\n{}",
-      one_line(r.scene), r.error, sizes_in_words(f.vertices, f.springs, f.pieces), f.events, f.omega_low, f.omega_high,
-      f.damping_ratio, f.phase, 1e6 * f.force_s, to_text(candidates_table(r)));
+      one_line(r.scene), r.error, sizes_in_words(f.vertices, f.springs, f.pieces), counted(f.events, "event"),
+      f.omega_low, f.omega_high, f.damping_ratio, f.phase, 1e6 * f.force_s, to_text(candidates_table(r)));
   for (const Candidate& c : r.candidates)
     if (!c.usable() && !c.untried) text += fmt::format("  not {}: {}\n", c.contender, c.pruned);
   if (const auto untried = r.untried(); !untried.empty())
@@ -144,10 +145,10 @@ std::string text_of(const Recommendation& r, const RecommendedScene* scene, bool
                               r.error, r.best_error, r.untried().empty() ? "" : " of what was tried", r.best_error_by)
                 : "\nNothing can be recommended.\n");
   text += fmt::format(
-      "\nTake {} with a step of {} s, {} steps{}: error {:.1e}, {} here (the time of {:.0f} force evaluations; it makes "
+      "\nTake {} with a step of {} s, {}{}: error {:.1e}, {} here (the time of {:.0f} force evaluations; it makes "
       "{:.0f}).\nAn error is the root mean square over the mass, the largest over time; single vertices are farther "
       "off.\n",
-      pick->contender, pick->h, pick->steps,
+      pick->contender, pick->h, counted(pick->steps, "step"),
       pick->limited_by_stability ? ", all that stability allows"
       : pick->fewest_steps       ? ", the fewest steps tried"
                                  : "",
@@ -155,8 +156,8 @@ std::string text_of(const Recommendation& r, const RecommendedScene* scene, bool
   if (scene != nullptr) {
     text += fmt::format("In the scene file: {}\n", scene->setting());
     if (pick->steps > scene->steps_for_error)
-      text += fmt::format("The error takes {} steps; the events, and the times of loads and output, make them {}.\n",
-                          scene->steps_for_error, pick->steps);
+      text += fmt::format("The error takes {}; the events, and the times of loads and output, make them {}.\n",
+                          counted(scene->steps_for_error, "step"), pick->steps);
     for (const std::string& sentence : {scene->choice, scene->trouble})
       if (!sentence.empty()) text += sentence + "\n";
     if (scene->names_cells) text += "The scene that --write FILE writes names the cells of the accurate run.\n";
@@ -172,8 +173,8 @@ std::string text_of(const Recommendation& r, const RecommendedScene* scene, bool
   // steps of the others are not fitted to the times of the scene
   const bool is_fitted = scene != nullptr && pick->steps > scene->steps_for_error;
   if (const Candidate* second = r.runner_up(); second != nullptr && !is_fitted)
-    text += fmt::format("Runner-up: {} with {} steps, {:.2f} times the cost.\n", second->contender, second->steps,
-                        second->predicted_cost / pick->predicted_cost);
+    text += fmt::format("Runner-up: {} with {}, {:.2f} times the cost.\n", second->contender,
+                        counted(second->steps, "step"), second->predicted_cost / pick->predicted_cost);
   if (const Candidate* c = r.cheaper_by_tolerance())
     text += fmt::format(
         "A program in which {} chooses its steps, with a tolerance of {:.2e} edges, takes {:.2f} times the cost; "

@@ -216,9 +216,7 @@ class TouchForecaster {
   std::vector<Body> bodies_;
 };
 
-}  // namespace
-
-std::vector<ContactForecast> forecast_contacts(const SceneFile& scene, const Problem& problem) {
+std::vector<ContactForecast> at_obstacles(const SceneFile& scene, const Problem& problem) {
   std::vector<ContactForecast> contacts;
   if (scene.obstacles.empty()) return contacts;
   const Forecaster forecaster(scene, problem);
@@ -226,7 +224,7 @@ std::vector<ContactForecast> forecast_contacts(const SceneFile& scene, const Pro
   return contacts;
 }
 
-std::vector<TouchForecast> forecast_touches(const SceneFile& scene, const Problem& problem) {
+std::vector<TouchForecast> between_bodies(const SceneFile& scene, const Problem& problem) {
   std::vector<TouchForecast> keys;
   if (scene.touches.empty()) return keys;
   const TouchForecaster forecaster(scene, problem);
@@ -241,15 +239,16 @@ std::vector<TouchForecast> forecast_touches(const SceneFile& scene, const Proble
   return keys;
 }
 
-double largest_share(std::span<const ContactForecast> contacts) {
-  double most = 0.0;
-  for (const ContactForecast& f : contacts) most = std::max(most, f.share);
-  return most;
+}  // namespace
+
+ExpectedContacts expect_contacts(const SceneFile& scene, const Problem& problem) {
+  return {at_obstacles(scene, problem), between_bodies(scene, problem)};
 }
 
-double largest_share(std::span<const TouchForecast> contacts) {
+double ExpectedContacts::share() const {
   double most = 0.0;
-  for (const TouchForecast& f : contacts) most = std::max(most, f.contact.share);
+  for (const ContactForecast& f : obstacles) most = std::max(most, f.share);
+  for (const TouchForecast& f : bodies) most = std::max(most, f.contact.share);
   return most;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <set>
 
 #include "core/base/overloads.h"
@@ -29,22 +30,37 @@ void add_values(const CellTags& marks, std::set<std::string>& values) {
                                               : fmt::format("{}", value));
 }
 
-/// The kinds of marks that the files of a scene have: those that could be meant, and the others.
+bool has_name(const TagSelection& tag, const CellTags& marks) {
+  const auto* named = std::get_if<std::string>(&tag.value);
+  return named != nullptr &&
+         std::ranges::any_of(marks.names, [named](const auto& entry) { return entry.second == *named; });
+}
+
+/// The kinds of marks that the files of a scene have.
 struct Found {
-  std::set<std::string> kinds;   // of marks that could be meant
-  std::set<std::string> others;  // kinds that could not be meant
-  std::set<std::string> values;
+  std::map<std::string, std::set<std::string>> values;  // by kind, of the marks that could be meant
+  std::set<std::string> holders;                        // those of these kinds with the name that is asked for
+  std::set<std::string> others;                         // kinds that could not be meant
+
+  /// A name means the marks that have it, and all only where there are no such marks.
+  std::set<std::string> kinds() const {
+    if (!holders.empty()) return holders;
+    std::set<std::string> all;
+    for (const auto& [kind, of_kind] : values) all.insert(kind);
+    return all;
+  }
 };
 
 void require_found(const SceneFile& scene, const Found& found, bool any, const std::string& path) {
   const auto fail = [&](const std::string& what, const std::string& expected) { scene.fail(path, what, expected); };
-  if (found.kinds.empty() && found.others.empty())
+  const std::set<std::string> kinds = found.kinds();
+  if (kinds.empty() && found.others.empty())
     fail("names a mark of cells, and no mesh file of the scene has any", "a selection by place");
-  if (found.kinds.empty())
+  if (kinds.empty())
     fail("names a kind of marks that no mesh file has", fmt::format("'{}'", fmt::join(found.others, "' or '")));
-  if (found.kinds.size() > 1)
-    fail("does not say which kind of marks it means", fmt::format("\"of\": '{}'", fmt::join(found.kinds, "' or '")));
-  if (!any) fail("names a mark that no cell has", fmt::format("{}", fmt::join(found.values, ", ")));
+  if (kinds.size() > 1)
+    fail("does not say which kind of marks it means", fmt::format("\"of\": '{}'", fmt::join(kinds, "' or '")));
+  if (!any) fail("names a mark that no cell has", fmt::format("{}", fmt::join(found.values.at(*kinds.begin()), ", ")));
 }
 
 }  // namespace
@@ -61,9 +77,12 @@ std::vector<std::uint32_t> cells_with(const SceneFile& scene, const TagSelection
     const LoadedMesh read = body.loaded ? LoadedMesh{} : read_body_mesh(body);
     const LoadedMesh& loaded = body.loaded ? *body.loaded : read;
     for (const CellTags& marks : loaded.tags) {
-      (is_meant(tag, marks) ? found.kinds : found.others).insert(marks.name);
-      if (!is_meant(tag, marks)) continue;
-      add_values(marks, found.values);
+      if (!is_meant(tag, marks)) {
+        found.others.insert(marks.name);
+        continue;
+      }
+      add_values(marks, found.values[marks.name]);
+      if (has_name(tag, marks)) found.holders.insert(marks.name);
       for (std::size_t c = 0; c < marks.values.size(); ++c)
         if (has_value(tag, marks, marks.values[c])) cells.push_back(static_cast<std::uint32_t>(before + c));
     }

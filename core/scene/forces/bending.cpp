@@ -72,7 +72,10 @@ ForceKind bending_kind() {
               {.shape = Shape::bending, .name = "rigidity", .type = real, .unit = "N m", .range = {.least = 0.0},
                .help = "flexural rigidity of a flat sheet of triangles, E h^3 / (12 (1 - nu^2)) of a plate of thickness h: energy "
                        "that is quadratic in the bend of each edge, with a constant matrix. Exact on triangles with equal sides; "
-                       "squares halved have it along their sides, and thrice that along one diagonal"},
+                       "squares halved have it along their sides, and thrice that along one diagonal. It is that of a cylinder: a free "
+                       "strip of the generated squares sags some 20 % more than a beam of that rigidity, and one of equal "
+                       "triangles (0.4 m by 0.2 m, edges of 20, 10 and 5 mm) 21, 12 and 7 % more, so that a clamp and free "
+                       "borders cost about the width of a cell"},
               {.shape = Shape::bending, .name = "second_neighbours", .type = real, .unit = "N/m", .range = {.least = 0.0},
                .help = "stiffness of springs between second neighbours, as Provot has them: between the two corners across an edge "
                        "of triangles, along the lines of a mesh of quadrilaterals. They have no linear bending stiffness: their "

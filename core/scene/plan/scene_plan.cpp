@@ -16,6 +16,7 @@
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/run/simulation.h"
 #include "core/scene/survey/mesh_direction.h"
+#include "core/scene/survey/scene_survey.h"
 #include "core/scene/timeline/driven_vertices.h"
 #include "core/time/integrators.h"
 #include "core/time/watch/divergence.h"
@@ -45,25 +46,33 @@ std::string source_of(const SceneFile& scene) {
 }
 
 std::string output_reason(std::string_view key, const std::optional<std::uint64_t>& steps) {
-  if (steps) return fmt::format("/output/{}: every {} steps, the first and the last state", key, *steps);
+  if (steps)
+    return fmt::format("/output/{}: every {}, the first and the last state", key,
+                       *steps == 1 ? "step" : counted(*steps, "step"));
   return fmt::format("/output: without '{}', the first and the last state", key);
 }
+
+/// "1 vertex", "2 vertices".
+std::string counted_vertices(std::size_t n) { return fmt::format("{} {}", n, n == 1 ? "vertex" : "vertices"); }
 
 class Planner {
  public:
   Planner(const SceneFile& scene, const Problem& problem, const Simulation& simulation)
-      : scene_(scene), problem_(problem), body_(simulation.body()) {
+      : scene_(scene), problem_(problem), simulation_(simulation), body_(simulation.body()) {
     plan_.needs = needs_of(scene, problem);
     plan_.counts = body_.counts();
     for (const CellKind kind : problem.mesh.kinds)
       for (const std::vector<int>& face : faces_of(kind)) plan_.darts += 2 * face.size();
     plan_.map = plan_.needs.body.topology_changes ? body_.map_name() : "no map";
     plan_.steps = simulation.step_count();
-    plan_.selections.assign(simulation.selections().begin(), simulation.selections().end());
+    SceneSurvey survey = survey_scene(scene, problem, simulation);
+    plan_.selections = std::move(survey.selections);
     plan_.events = forecast_events(scene, plan_.selections, plan_.counts.cells);
     for (const SelectionCount& count : plan_.selections)
       if (count.just_outside > 0) plan_.remarks.push_back(near_miss(count));
-    for (const StiffBody& body : simulation.stiff_bodies()) plan_.remarks.push_back(to_string(body));
+    for (const StiffBody& body : survey.stiff_bodies) plan_.remarks.push_back(to_string(body));
+    for (const Sag& sag : survey.sags) plan_.remarks.push_back(to_string(sag));
+    if (!survey.cheaper.empty()) plan_.remarks.push_back(survey.cheaper);
     if (const std::string direction = direction_in_words(scene, problem.mesh); !direction.empty())
       plan_.remarks.push_back(direction);
   }
@@ -148,7 +157,7 @@ class Planner {
       add(Part::fixed,
           fmt::format("{} of {} vertices are held still or driven", problem_.fixed.size(), n.vertices) +
               (along_axes > 0 ? fmt::format(", {} along some axes", along_axes) : ""),
-          fmt::format("/fixed: {} selections; /driven: {}", scene_.fixed.size(), scene_.driven.size()));
+          fmt::format("/fixed: {}; /driven: {}", counted(scene_.fixed.size(), "selection"), scene_.driven.size()));
     else
       leave_out("column and term of fixed vertices",
                 scene_.fixed.empty() ? "/fixed: not given" : "/fixed: its selections are empty");
@@ -173,9 +182,9 @@ class Planner {
     DivergenceDetector detector;
     detector.start(body_.system(), {x, v}, scene_.step);
     add(Part::driven,
-        fmt::format("paths of {} vertices, and {} springs whose work is summed", vertices.size(),
-                    detector.driven_springs()),
-        fmt::format("/driven: {} selections", scene_.driven.size()));
+        fmt::format("paths of {}, and {} whose work is summed", counted_vertices(vertices.size()),
+                    counted(detector.driven_springs(), "spring")),
+        fmt::format("/driven: {}", counted(scene_.driven.size(), "selection")));
   }
 
   void forces() {
@@ -263,7 +272,7 @@ class Planner {
     }
     const Contacts contacts = body_.contacts();
     const std::size_t places = contacts.samples(contacts.obstacles == nullptr).size();
-    ContactPlan plan{.obstacles = forecast_contacts(scene_, problem_), .touches = forecast_touches(scene_, problem_)};
+    ContactPlan plan{.expected = simulation_.expected_contacts()};
     std::string against, why;
     if (contacts.obstacles != nullptr) {
       against = counted(scene_.obstacles.size(), "obstacle");
@@ -272,7 +281,7 @@ class Planner {
     if (contacts.bodies != nullptr) {
       against += fmt::format("{}{} tetrahedra along the surface", against.empty() ? "" : " and ",
                              contacts.bodies->solids().tetrahedra().size());
-      for (const TouchForecast& touch : plan.touches) why += (why.empty() ? "" : "; ") + touch.path;
+      for (const TouchForecast& touch : plan.expected.bodies) why += (why.empty() ? "" : "; ") + touch.path;
     }
     add(Part::contact,
         fmt::format("{} places of the surface, each held against {}{}", places, against,
@@ -282,7 +291,6 @@ class Planner {
         why);
     if (contacts.bodies == nullptr)
       leave_out("contact of bodies with each other and themselves", "/contact/bodies: none");
-    plan.share = std::max(largest_share(plan.obstacles), largest_share(plan.touches));
     // the body without contacts, which may exist at the start
     SpringSystem alone = body_.system();
     alone.terms = body_.terms_but_contact(alone.terms);
@@ -290,7 +298,7 @@ class Planner {
     const Scheme& scheme = make_integrator(scene_.integrator)->scheme();
     const Horizon horizon = horizon_of(scene_.duration);
     plan.body_rate = limits.upper;
-    plan.contact_rate = contact_rate(alone, contacts, plan.share);
+    plan.contact_rate = contact_rate(alone, contacts, plan.expected.share());
     plan.body_step = limits.safe_step(scheme, horizon);
     plan.stable_step = with_contact(limits, plan.contact_rate).safe_step(scheme, horizon);
     plan_.contact = plan;
@@ -322,9 +330,11 @@ class Planner {
   void event(std::size_t k) {
     const SceneEvent& e = scene_.events[k];
     const EventForecast& f = plan_.events[k];
-    std::string what = fmt::format("{}, {} times", key_of(e.action), f.times);
-    what += std::holds_alternative<TearWhereStressed>(e.action) ? ": the stress of every vertex"
-                                                                : fmt::format(", some {:.0f} operations", f.operations);
+    const std::string operations = fmt::format("{:.0f}", f.operations);
+    std::string what = fmt::format("{}, {}", key_of(e.action), counted(f.times, "time"));
+    what += std::holds_alternative<TearWhereStressed>(e.action)
+                ? ": the stress of every vertex"
+                : fmt::format(", some {} operation{}", operations, operations == "1" ? "" : "s");
     add(Part::event, std::move(what), e.action_path());
     plan_.items.back().which = k;
   }
@@ -344,7 +354,7 @@ class Planner {
             (compressor ? fmt::format(", compressed by {}", *compressor == Compressor::zlib ? "zlib" : "LZ4") : ""),
         output_reason("frames_every", scene_.output.frame_steps));
     if (!scene_.probes.empty())
-      add(Part::probes, fmt::format("{} vertices followed", scene_.probes.size()), "/output/probes");
+      add(Part::probes, counted_vertices(scene_.probes.size()) + " followed", "/output/probes");
     add(Part::diagnostics,
         fmt::format("energies, momenta, boundary, {}", stress_name(problem_.mesh.highest_dimension())),
         output_reason("diagnostics_every", scene_.output.diagnostic_steps));
@@ -381,16 +391,25 @@ class Planner {
           fmt::format("{}{}: {}", words.empty() ? "" : "; ", tissue.path, name(model_of(tissue, dimension_of(tissue))));
     return words;
   }
-  /// "/material/damping: a ratio of 0.025 at 1 Hz", "/material: without 'damping'"
+  /// "a ratio of 0.1 at 2 Hz", as the text of the scene gives it; at 1 Hz if no text has it.
+  std::string damping_in_words(const SceneFile::Tissue& tissue) const {
+    const double time = tissue.material.damping_time;
+    const auto text = nlohmann::json::parse(scene_.text, nullptr, false);
+    const nlohmann::json::json_pointer path(tissue.path + "/damping");
+    if (!text.is_discarded() && text.contains(path) && text.at(path).is_object()) {
+      const double ratio = text.at(path).at("ratio"), frequency = text.at(path).at("frequency");
+      if (damping_time_of(ratio, frequency) == time) return fmt::format("a ratio of {} at {} Hz", ratio, frequency);
+    }
+    return fmt::format("a ratio of {:.3g} at 1 Hz", time / damping_time_of(1.0, 1.0));
+  }
+  /// "/material/damping: a ratio of 0.1 at 2 Hz", "/material: without 'damping'"
   std::string damped_elements() const {
     std::string words;
     for (const SceneFile::Tissue& tissue : scene_.tissues()) {
       if (tissue.material.model == Model::springs) continue;
       words += words.empty() ? "" : "; ";
-      words += tissue.material.damping_time > 0.0
-                   ? fmt::format("{}/damping: a ratio of {:.3g} at 1 Hz", tissue.path,
-                                 tissue.material.damping_time / damping_time_of(1.0, 1.0))
-                   : fmt::format("{}: without 'damping'", tissue.path);
+      words += tissue.material.damping_time > 0.0 ? fmt::format("{}/damping: {}", tissue.path, damping_in_words(tissue))
+                                                  : fmt::format("{}: without 'damping'", tissue.path);
     }
     return words;
   }
@@ -412,6 +431,7 @@ class Planner {
 
   const SceneFile& scene_;
   const Problem& problem_;
+  const Simulation& simulation_;
   const SimulatedBody& body_;
   ScenePlan plan_;
 };
@@ -434,8 +454,9 @@ std::size_t ScenePlan::bytes() const {
 }
 
 ScenePlan plan_scene(const SceneFile& scene) {
-  Simulation simulation(with_events_held_back(scene));
-  ScenePlan plan = Planner(scene, make_problem(scene), simulation).plan();
+  const Problem problem = make_problem(scene);
+  Simulation simulation(with_events_held_back(scene), problem);
+  ScenePlan plan = Planner(scene, problem, simulation).plan();
   take_step(simulation, scene);
   add_bytes(plan, simulation.memory());
   return plan;

@@ -40,9 +40,7 @@ struct EventForecast {
 
 /// The contact expected before anything moves.
 struct ContactPlan {
-  std::vector<ContactForecast> obstacles;  // in the order of the scene
-  std::vector<TouchForecast> touches{};    // a row for each key that lets bodies touch
-  double share = 0.0;         // the largest expected depth over that of its law; the next rates and steps are for it
+  ExpectedContacts expected;  // the next rates and steps are for depths of its largest share
   double body_rate = 0.0;     // [1/s] an upper bound of the highest frequency of the body alone
   double contact_rate = 0.0;  // [1/s] the contribution of contacts that deep, as a root of a sum of squares
   double body_step = 0.0;     // [s] the longest stable step of the body alone; infinite of an implicit method

@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view word = "dartboard checkpoint\n";
 constexpr std::uint32_t byte_order = 0x01020304;
 // to be increased with every change of what is stored, or of the order in which it is stored
-constexpr std::uint32_t format = 21;
+constexpr std::uint32_t format = 22;
 
 struct Head {
   std::uint32_t order = byte_order, number = format;

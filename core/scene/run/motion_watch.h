@@ -59,6 +59,9 @@ class MotionWatch {
     return {before, n - before == within_.step ? within_.later : 0.0};
   }
 
+  /// Is the state kept last the present one?
+  bool has_just_kept() const { return detector_.has_just_kept(); }
+
   std::size_t bytes() const { return detector_.bytes(); }
   std::size_t driven_bytes() const { return detector_.driven_bytes(); }
 

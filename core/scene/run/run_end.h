@@ -2,6 +2,7 @@
 // The reasons for which a run ends before its time.
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <variant>
 
@@ -14,9 +15,10 @@ struct Divergence {
   std::string quantity;      // "position", "speed", "stress", or what the integrator reports
   std::uint32_t vertex = 0;  // its number in the file of the mesh, or no_point
   double value = 0.0;
-  std::uint64_t taken_back = 0;  // number of steps that the body has gone back
+  std::uint64_t taken_back = 0;                             // number of steps that the body has gone back
+  double stable = std::numeric_limits<double>::infinity();  // [s] the longest stable step of the state gone back to
 };
-/// "diverged at step 12, t = 0.012 s: speed of vertex 3 is 4.1e+08"
+/// "diverged at step 12, t = 0.012 s: speed of vertex 3 is 4.1e+08 m/s: faster than light"
 std::string to_string(const Divergence& divergence);
 
 /// The scene refuses the next step, which is too long to be stable, and it was not taken.

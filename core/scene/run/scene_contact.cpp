@@ -12,6 +12,7 @@
 #include "core/base/bytes.h"
 #include "core/base/counted.h"
 #include "core/contact/box_around.h"
+#include "core/places/border.h"
 #include "core/scene/run/body_in_words.h"
 #include "core/time/solve/stop_request.h"
 
@@ -172,11 +173,10 @@ void SceneContact::warn(ContactWarning warning) {
   if (!has_warned(warning.kind, warning.of_bodies)) warnings_.push_back(std::move(warning));
 }
 
-void SceneContact::start(std::span<const Vector3d> x, std::span<const ContactForecast> expected,
-                         std::span<const TouchForecast> expected_touches, double h) {
+void SceneContact::start(std::span<const Vector3d> x, const ExpectedContacts& expected, double h) {
   if (contacts_.bodies != nullptr) {
-    const double half = expected_touches.empty() ? 0.0 : 0.5 * contacts_.bodies->least_altitude(x);
-    for (const TouchForecast& f : expected_touches) {
+    const double half = expected.bodies.empty() ? 0.0 : 0.5 * contacts_.bodies->least_altitude(x);
+    for (const TouchForecast& f : expected.bodies) {
       look_ahead({.of_bodies = true, .from = f.first, .into = f.second}, f.contact, f.law, half, h);
       for (const auto& [from, into] : {std::pair(f.second, f.first), std::pair(f.first, f.second)})
         if (!has_warned(ContactWarning::Kind::too_thin, true))
@@ -190,12 +190,13 @@ void SceneContact::start(std::span<const Vector3d> x, std::span<const ContactFor
   contacts_.obstacles->place_at(0.0);
   double gap = 0.0;
   for (const SkinSample& sample : contacts_.samples(false))
-    if (!expected.empty()) gap = std::max(gap, farthest_on_face(sample, x));
-  for (std::uint32_t o = 0; o < expected.size(); ++o) {
+    if (!expected.obstacles.empty()) gap = std::max(gap, farthest_on_face(sample, x));
+  for (std::uint32_t o = 0; o < expected.obstacles.size(); ++o) {
     const Obstacle& obstacle = contacts_.obstacles->obstacles()[o];
     const ContactLaw& law = contacts_.obstacles->laws()[o];
-    look_ahead({.obstacle = o}, expected[o], law, obstacle.half_thickness(), h);
-    look_at_thickness({.obstacle = o}, deepest_of(expected[o], law), obstacle.half_thickness());
+    const ContactForecast& forecast = expected.obstacles[o];
+    look_ahead({.obstacle = o}, forecast, law, obstacle.half_thickness(), h);
+    look_at_thickness({.obstacle = o}, deepest_of(forecast, law), obstacle.half_thickness());
     if (const double unfelt = obstacle.depth_between(gap); unfelt > law.depth)
       warn({.kind = ContactWarning::Kind::too_small, .obstacle = o, .value = unfelt, .limit = gap});
   }
@@ -229,9 +230,9 @@ void SceneContact::look_at_thickness(ContactWarning at, double deepest, double h
 
 /// Warns of samples that start inside something.
 void SceneContact::look_inside(bool of_bodies, std::span<const Vector3d> x) {
-  const Contacts contacts = of_bodies ? Contacts(nullptr, contacts_.bodies) : Contacts(contacts_.obstacles);
+  const Contacts contacts = contacts_.only(of_bodies);
   const ContactState found = contacts.state_at(x);
-  if (found.contacts == 0) return;
+  if (!(found.deepest > border_thickness(x))) return;  // a body that lies on a surface, to rounding
   warn({.kind = ContactWarning::Kind::starts_inside,
         .of_bodies = of_bodies,
         .obstacle = of_bodies ? 0 : found.obstacle,
@@ -292,8 +293,8 @@ void SceneContact::look_after_step(double time, double h, Motion motion) {
     if (!has_warned(ContactWarning::Kind::too_fast)) look_for_speed(time, h, motion.v);
   }
   if (contacts_.bodies != nullptr) {
-    const bool has_found_touches = look_for_lost(time, motion.x);
-    find_ways(true, motion.x, has_found_touches);
+    look_for_lost(time, motion.x);
+    find_ways(true, motion.x);
     look_at_ways(true, time);
     if (!has_warned(ContactWarning::Kind::too_fast, true)) look_for_speed_of_bodies(time, h, motion.v);
   }
@@ -341,42 +342,29 @@ ContactWarning SceneContact::warning_of(ContactWarning::Kind kind, bool of_bodie
           .value = way.depth};
 }
 
-SceneContact::Way SceneContact::way_of(const BodyTouch& touch) const {
-  return {touch.sample, contacts_.bodies->group_entered(touch), touch.depth, contacts_.bodies->laws()[touch.law].depth,
-          touch.normal};
-}
-
-/// Returns whether the touches at these places are those that were found last.
-bool SceneContact::look_for_lost(double time, std::span<const Vector3d> x) {
+void SceneContact::look_for_lost(double time, std::span<const Vector3d> x) {
   using Kind = ContactWarning::Kind;
-  if (has_warned(Kind::out_of_reach, true) || (contacts_.bodies->has_none_to_lose() && impulses_.are_apart(x)))
-    return false;
-  if (const auto lost = contacts_.bodies->find_lost(x); !lost.empty()) {
-    warnings_.push_back(warning_of(Kind::out_of_reach, true, time, way_of(lost.front())));
-    warnings_.back().samples = lost.size();
-  }
-  return true;
+  if (has_warned(Kind::out_of_reach, true) || (contacts_.bodies->has_none_to_lose() && impulses_.are_apart(x))) return;
+  const auto lost = contacts_.bodies->find_lost(x);
+  if (lost.empty()) return;
+  const BodyTouch& first = lost.front();
+  const Way way{.sample = first.sample, .other = contacts_.bodies->group_entered(first), .depth = first.depth};
+  warnings_.push_back(warning_of(Kind::out_of_reach, true, time, way));
+  warnings_.back().samples = lost.size();
 }
 
 /// Finds the ways out after a step, where something has not been warned of; a way of less than a tenth of the depth of
 /// its law is none, where two surfaces just meet.
-void SceneContact::find_ways(bool of_bodies, std::span<const Vector3d> x, bool has_found_touches) {
+void SceneContact::find_ways(bool of_bodies, std::span<const Vector3d> x) {
   Ways& ways = ways_[of_bodies ? 1 : 0];
   ways.now.swap(ways.before);
   ways.now.clear();
   if (has_warned(ContactWarning::Kind::too_deep, of_bodies) && !may_warn_of_passages(of_bodies)) return;
   if (of_bodies ? impulses_.are_apart(x) : impulses_.is_clear(x)) return;
-  const auto add = [&ways](const Way& way) {
-    if (way.depth > 0.1 * way.allowed) ways.now.push_back(way);
-  };
-  if (of_bodies)
-    for (const BodyTouch& touch :
-         has_found_touches ? contacts_.bodies->found_touching() : contacts_.bodies->touching({x}))
-      add(way_of(touch));
-  else
-    contacts_.obstacles->for_each_touch({x}, [&](std::uint32_t sample, std::uint32_t o, const Penetration& in) {
-      add({sample, o, in.depth, contacts_.obstacles->laws()[o].depth, in.normal});
-    });
+  contacts_.only(of_bodies).for_each_touch({x}, [&](const Touch& t) {
+    const std::uint32_t other = of_bodies ? contacts_.bodies->group_entered(*t.in_body) : t.obstacle;
+    if (t.depth > 0.1 * t.law->depth) ways.now.push_back({t.sample, other, t.depth, t.law->depth, t.normal});
+  });
 }
 
 /// Has anything a middle to come through, and has none been warned of?
@@ -435,6 +423,12 @@ void SceneContact::look_for_speed_of_bodies(double time, double h, std::span<con
                        .limit = 0.5 * least_altitude_});
 }
 
+void SceneContact::go_back(double time) {
+  impulses_.restore(kept_.losses);
+  work_reported_ = kept_.work_reported;
+  go_to(time);
+}
+
 double SceneContact::new_work() {
   const double work = impulses_.losses().supplied - work_reported_;
   work_reported_ = impulses_.losses().supplied;
@@ -445,13 +439,10 @@ ContactDiagnostics SceneContact::diagnostics(const SimulatedBody& body) const {
   const std::span<const Vector3d> x = body.vertices().position;
   const ContactLosses& losses = impulses_.losses();
   ContactDiagnostics d{.damped = losses.damped, .rubbed = losses.rubbed, .supplied = losses.supplied};
-  const Contacts all = body.contacts();
-  for (const Contacts& one : {Contacts(all.obstacles), Contacts(nullptr, all.bodies)}) {
-    const ContactState now = one.state_at(x);
-    d.energy += now.energy;
-    d.contacts += now.contacts;
-    d.deepest = std::max(d.deepest, now.deepest);
-  }
+  const ContactState now = body.contacts().state_at(x);
+  d.energy = now.energy;
+  d.contacts = now.contacts;
+  d.deepest = now.deepest;
   return d;
 }
 

@@ -63,8 +63,7 @@ class SceneContact {
   SceneContact(const Contacts& contacts, bool undoes);
 
   /// Find samples that start inside, and speeds that will be too high for steps of h [s].
-  void start(std::span<const Eigen::Vector3d> x, std::span<const ContactForecast> expected,
-             std::span<const TouchForecast> expected_touches, double h);
+  void start(std::span<const Eigen::Vector3d> x, const ExpectedContacts& expected, double h);
   /// The system has other parts than before, or other tetrahedra along its boundary at these places.
   void system_changed(const SpringSystem& system, std::span<const Eigen::Vector3d> x);
 
@@ -83,7 +82,11 @@ class SceneContact {
   /// cost    besides the step O(samples), and with balls, blocks or bodies O(vertices) until a vertex that is too fast
   ///         for them is found
   StepResult step(Integrator& integrator, const SpringSystem& system, Motion motion, double time, double h);
-  /// Move obstacles to their places at a time, for a body that has gone back to its state at that time.
+  /// The present sums are those of the state that the body may go back to.
+  void keep() { kept_ = {impulses_.losses(), work_reported_}; }
+  /// Continue from that state, which is of `time` [s]; warnings stay.
+  void go_back(double time);
+  /// Move obstacles to their places at a time, for a body that is not stepped until then.
   void go_to(double time) {
     if (contacts_.obstacles != nullptr) contacts_.obstacles->place_at(time);
   }
@@ -99,15 +102,16 @@ class SceneContact {
 
   template <class Archive>
   void state(Archive& archive) {
-    archive(impulses_, warnings_, work_reported_, least_altitude_);
+    archive(impulses_, warnings_, work_reported_, least_altitude_, kept_.losses, kept_.work_reported);
   }
 
  private:
   /// The way out of a sample, from an obstacle or from a body.
   struct Way {
     std::uint32_t sample, other;
-    double depth, allowed;  // [m] by its law
-    Eigen::Vector3d normal;
+    double depth;
+    double allowed = 0.0;  // [m] by its law
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   };
 
   void look_after_step(double time, double h, Motion motion);
@@ -120,14 +124,13 @@ class SceneContact {
   void look_at_thickness(ContactWarning at, double deepest, double half);
   void look_inside(bool of_bodies, std::span<const Eigen::Vector3d> x);
   void look_for_speed(double time, double h, std::span<const Eigen::Vector3d> v);
-  bool look_for_lost(double time, std::span<const Eigen::Vector3d> x);
+  void look_for_lost(double time, std::span<const Eigen::Vector3d> x);
   void start_ways(std::span<const Eigen::Vector3d> x);
-  void find_ways(bool of_bodies, std::span<const Eigen::Vector3d> x, bool has_found_touches = false);
+  void find_ways(bool of_bodies, std::span<const Eigen::Vector3d> x);
   bool may_warn_of_passages(bool of_bodies) const;
   void look_at_ways(bool of_bodies, double time);
   void look_for_speed_of_bodies(double time, double h, std::span<const Eigen::Vector3d> v);
   ContactWarning warning_of(ContactWarning::Kind kind, bool of_bodies, double time, const Way& way) const;
-  Way way_of(const BodyTouch& touch) const;
 
   Contacts contacts_;
   std::span<const std::uint32_t> vertices_;  // of the part, in the whole; empty: all
@@ -141,7 +144,11 @@ class SceneContact {
     std::vector<Way> now, before;
   };
   std::array<Ways, 2> ways_;
-  double work_reported_ = 0.0;   // [J]
+  double work_reported_ = 0.0;  // [J]
+  struct {
+    ContactLosses losses;
+    double work_reported = 0.0;  // [J]
+  } kept_;
   double least_altitude_ = 0.0;  // [m] of the tetrahedra along the boundary, as the system last changed
 };
 

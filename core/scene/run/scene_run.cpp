@@ -95,11 +95,11 @@ RunResult run_scene(Simulation& simulation, const OutputPlan& times, RunWatcher&
       watcher.diagnostics(progress.last);
     }
     if (due(probe_steps)) watcher.probes(simulation.probes());
-    if (result.interrupted || (plan.checkpoint_steps && (n == end || n % *plan.checkpoint_steps == 0)))
+    const bool is_cut_short = n == end && !is_over;
+    if (result.interrupted || is_cut_short || (plan.checkpoint_steps && (is_over || n % *plan.checkpoint_steps == 0)))
       watcher.checkpoint(simulation, progress);
     // a run that ends here for now hands out a state that its continuation will not
-    if (!is_over && (n == end || result.interrupted))
-      hand_out_the_rest(simulation, plan, probe_steps, watcher, progress);
+    if (is_cut_short || result.interrupted) hand_out_the_rest(simulation, plan, probe_steps, watcher, progress);
     watcher.stepped(simulation);
   }
   result.first = progress.first;

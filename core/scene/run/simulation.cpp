@@ -10,17 +10,14 @@
 #include "core/base/counted.h"
 #include "core/mechanics/fracture/stress.h"
 #include "core/plain/error.h"
-#include "core/scene/body/contact_forecast.h"
 #include "core/scene/body/frame_columns.h"
 #include "core/scene/file/beyond_numbers.h"
 #include "core/scene/file/load_mesh.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/run/body_in_words.h"
 #include "core/scene/run/sleeping.h"
-#include "core/scene/survey/cut_counts.h"
 #include "core/time/integrators.h"
 #include "core/time/system/energy.h"
-#include "core/time/watch/preflight.h"
 
 namespace dartboard {
 namespace {
@@ -60,34 +57,20 @@ std::string key_without_body(const SceneFile& scene, const Problem& problem) {
   return size.empty() ? scene.body.path : size;
 }
 
-/// The share of their depth that contacts are expected to reach, and the forecasts behind it.
-struct ExpectedContacts {
-  std::vector<ContactForecast> obstacles;
-  std::vector<TouchForecast> bodies;
-
-  ExpectedContacts(const SceneFile& scene, const Problem& problem)
-      : obstacles(forecast_contacts(scene, problem)), bodies(forecast_touches(scene, problem)) {}
-  double share() const { return std::max(largest_share(obstacles), largest_share(bodies)); }
-};
-
 }  // namespace
 
-Simulation::Simulation(const SceneFile& scene)
+Simulation::Simulation(const SceneFile& scene) : Simulation(scene, make_problem(scene)) {}
+
+Simulation::Simulation(const SceneFile& scene, const Problem& problem)
     : file_(scene.file),
       step_(settled_step(scene)),
       step_count_(step_of_time(scene.duration, step_)),
       guard_(scene, step_),
       fields_(scene.output.fields),
       exact_events_(scene.exact_events) {
-  const Problem problem = make_problem(scene);
   dimension_ = problem.mesh.highest_dimension();
   file_number_ = numbers_in_file(scene);
   if (std::holds_alternative<BodyList>(scene.body.mesh)) body_of_cell_ = body_of_cells(problem.bodies);
-  const CellMaterials materials = problem.cell_materials();
-  for (std::size_t m = model_names.size(); m-- > 0;)
-    if (materials.any(static_cast<Model>(m))) models_.push_back(static_cast<Model>(m));
-  for (std::size_t c = 0; c < problem.mesh.cell_count(); ++c)
-    if (materials[c].model == Model::springs) ++cells_of_springs_[problem.mesh.kinds[c]];
   const BodyNeeds needs = needs_of(scene, problem).body;
   try {
     body_ = make_simulated_body(problem, needs);
@@ -101,20 +84,18 @@ Simulation::Simulation(const SceneFile& scene)
     integrator_ = make_integrator(scene.integrator, scene.solver);
     timeline_ = std::make_unique<Timeline>(scene, problem.mesh, *body_, *integrator_, step_);
     track_probes(scene.probes, *body_);
-    std::optional<ExpectedContacts> expected;
     if (scene.has_contact()) {
       contact_ = std::make_unique<SceneContact>(body_->contacts(), integrator_->scheme().implicit);
-      guard_.expect_contact(expected.emplace(scene, problem).share());
+      expected_contacts_ = expect_contacts(scene, problem);
+      guard_.expect_contact(expected_contacts_.share());
     }
     if (!is_finite(diagnostics())) throw InputError(key_beyond_numbers(scene, problem.mesh));
-    selections_ = count_selections(scene, problem.mesh);
-    stiff_bodies_ = find_stiff_bodies(scene, problem);
-    for (const SceneEvent& event : scene.events)
-      if (const auto facets = timeline_->schedule(event)) count_cut(event, problem.mesh, *facets);
+    for (const SceneEvent& event : scene.events) facets_of_events_.push_back(timeline_->schedule(event));
+    counts_at_rest_ = body_->counts();
     timeline_->happen(0);
     timeline_->drive(0.0, end_of_part(0.0, step_));
     if (sums_work()) applied_ = potential_ = pull_energy(body_->system(), body_->vertices().position);
-    if (contact_) contact_->start(body_->vertices().position, expected->obstacles, expected->bodies, step_);
+    if (contact_) contact_->start(body_->vertices().position, expected_contacts_, step_);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene.file, error.what()));
   }
@@ -124,21 +105,11 @@ Simulation::Simulation(const SceneFile& scene)
                                  scene.accuracy ? "/accuracy" : "/step", refusal->why,
                                  scene.accuracy ? fmt::format("'step' in its place, at most {:.6g} s", refusal->stable)
                                                 : fmt::format("at most {:.6g} s", refusal->stable)));
-  examine_before_run();
   watch_.start(body_->system(), body_->motion(), step_);
   if (!watch_.before().ok())
     throw InputError(fmt::format("{}: {}", scene.file, key_beyond_numbers(scene, problem.mesh)));
   if (scene.sleep) sleeping_ = std::make_unique<Sleeping>(*scene.sleep, step_, *body_);
-}
-
-void Simulation::count_cut(const SceneEvent& event, const Mesh& mesh, std::size_t facets) {
-  std::size_t facets_of_cells = 0;
-  for (const CellKind kind : mesh.kinds)
-    facets_of_cells += dimension_ == 3 ? faces_of(kind).size() : static_cast<std::size_t>(node_count(kind));
-  const CellCounts counts = body_->counts();
-  const std::size_t all =
-      is_mixed(mesh) ? count_inner_facets(mesh) : facets_of_cells - (dimension_ == 3 ? counts.faces : counts.edges);
-  selections_.push_back(dartboard::count_cut(event, mesh, facets, all));
+  keep_sums();
 }
 
 Simulation::~Simulation() = default;
@@ -172,7 +143,7 @@ std::optional<EarlyEnd> Simulation::take_step() {
   const double work = contact_ && result.ok() ? contact_->new_work() : 0.0;
   if (const auto fault = watch_.after_step(result, done_, is_last, work, stepped_system(), stepped_motion()))
     return diverged(of_body(*fault));
-  if (is_last) examine_coordinates();
+  if (is_last && !coarse_) coarse_ = find_coarse_coordinate();
   add_work_of_forces(static_cast<double>(done_) * step_);
   try {
     const std::size_t before = this->operations();
@@ -184,6 +155,7 @@ std::optional<EarlyEnd> Simulation::take_step() {
   } catch (const SolverError& error) {
     return stress_failure(error);
   }
+  if (watch_.has_just_kept()) keep_sums();
   // no other step will check the state after events at the end
   if (is_last) return start_failure();
   return {};
@@ -218,25 +190,16 @@ void Simulation::examine_step() {
   guard_.examine(*body_, integrator_->scheme(), done_);
 }
 
-// Steps too long and coordinates too large have warnings of their own, which a run may add to.
-void Simulation::examine_before_run() {
-  const Preflight found =
-      check_before_run(body_->system(), body_->motion(), integrator_->scheme(),
-                       step_ / static_cast<double>(guard_.parts()), guard_.limits(), guard_.horizon());
-  if (found.warns_of(StepCode::coordinate_precision)) examine_coordinates();
-  warnings_ = found.warnings;
-  std::erase_if(warnings_, [](const StepResult& w) {
-    return w.code == StepCode::unstable_step || w.code == StepCode::coordinate_precision ||
-           w.quantity == step_times_frequency;
-  });
-  for (StepResult& warning : warnings_)
-    if (warning.witness == Witness::vertex) warning.number = file_number(warning.number);
+Preflight Simulation::check_before_run() const {
+  SimulatedBody& body = *body_;
+  return dartboard::check_before_run(body.system(), body.motion(), integrator_->scheme(),
+                                     step_ / static_cast<double>(guard_.parts()), guard_.limits(), guard_.horizon());
 }
 
-void Simulation::examine_coordinates() {
-  if (coarse_) return;
-  coarse_ = find_coarse_coordinate(body_->system(), body_->vertices().position);
-  if (coarse_) coarse_->vertex = file_number(coarse_->vertex);
+std::optional<CoordinatePrecision> Simulation::find_coarse_coordinate() const {
+  auto coarse = dartboard::find_coarse_coordinate(body_->system(), body_->vertices().position);
+  if (coarse) coarse->vertex = file_number(coarse->vertex);
+  return coarse;
 }
 
 /// Reports a fault; the body goes back to the state kept last if there is one.
@@ -247,7 +210,9 @@ Divergence Simulation::diverged(const Fault& fault, bool goes_back) {
   d.taken_back = taken_back_ = kept.steps_before;
   taken_back_within_ = kept.later;
   if (sleeping_) sleeping_->give();
-  if (contact_) contact_->go_to(time());
+  if (contact_) contact_->go_back(time());
+  applied_ = kept_applied_;
+  d.stable = step_limit().stable;
   return d;
 }
 
@@ -290,6 +255,7 @@ StepResult Simulation::step_in_parts() {
     result = watch_.changed_within_step(stepped_system(), stepped_motion());
     if (!result.ok()) return result;
     watch_.keeps_within_step(done_, now - static_cast<double>(done_) * step_);
+    keep_sums();
   }
 }
 
@@ -334,6 +300,12 @@ void Simulation::add_work_of_forces(double now) {
   if (!sums_work()) return;
   const auto& x = body_->vertices().position;
   applied_ += pull_energy(body_->system(), x) - potential_ - body_->work(x, now - work_from_);
+}
+
+/// The sums of work are those of the state that the watch has kept.
+void Simulation::keep_sums() {
+  kept_applied_ = applied_;
+  if (contact_) contact_->keep();
 }
 
 Diagnostics Simulation::diagnostics(std::optional<double> largest_stress) const {

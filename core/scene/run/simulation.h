@@ -2,13 +2,13 @@
 // A scene that runs: body, integrator and events, one step at a time.
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/scene/body/contact_forecast.h"
 #include "core/scene/body/diagnostics.h"
 #include "core/scene/body/frame.h"
 #include "core/scene/body/simulated_body.h"
@@ -18,11 +18,10 @@
 #include "core/scene/run/run_end.h"
 #include "core/scene/run/scene_contact.h"
 #include "core/scene/run/step_guard.h"
-#include "core/scene/survey/bending_stiffness.h"
-#include "core/scene/survey/selection_counts.h"
 #include "core/scene/timeline/timeline.h"
 #include "core/time/method/integrator.h"
 #include "core/time/system/coordinate_precision.h"
+#include "core/time/watch/preflight.h"
 
 namespace dartboard {
 
@@ -36,6 +35,10 @@ class Simulation {
   ///         and has not been given a step and an integrator, that refuses unstable steps and has too long a step, or
   ///         whose numbers are too large to move; IoError for a mesh that cannot be read
   explicit Simulation(const SceneFile& scene);
+  /// For a problem that has been made already, which is not needed afterwards.
+  ///
+  /// pre  it is make_problem(scene)
+  Simulation(const SceneFile& scene, const Problem& problem);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -71,17 +74,20 @@ class Simulation {
   StepLimit step_limit_found() const { return guard_.limits().limit(integrator_->scheme(), guard_.horizon()); }
   /// The first step found to be too long, and how steps are divided since.
   const std::optional<StepWarning>& step_warning() const { return guard_.warning(); }
-  /// Coordinates too far from the origin for the springs they belong to, at the start or where the run ended.
+  /// Coordinates too far from the origin for the springs they belong to, found now.
+  std::optional<CoordinatePrecision> find_coarse_coordinate() const;
+  /// The same where the run ended.
   const std::optional<CoordinatePrecision>& coordinate_warning() const { return coarse_; }
-  /// The other warnings before the first step: springs of zero length, denormal numbers, steps that rounding loses
-  /// (check_before_run). That a stable step does not resolve the fastest motions is not a warning here: it holds for
-  /// most sound runs.
-  std::span<const StepResult> warnings() const { return warnings_; }
+  /// The checks before the first step.
+  Preflight check_before_run() const;
 
-  /// The contents of each selection of the scene at rest, before the first event; cuts come last.
-  std::span<const SelectionCount> selections() const { return selections_; }
-  /// Bodies of elements that are expected to bend much less than they should.
-  std::span<const StiffBody> stiff_bodies() const { return stiff_bodies_; }
+  /// The facets that each event would have dissociated before anything happened, in the order of the scene; no value
+  /// for one that is no cut.
+  std::span<const std::optional<std::size_t>> facets_of_events() const { return facets_of_events_; }
+  /// Before the first event.
+  const CellCounts& counts_at_rest() const { return counts_at_rest_; }
+  /// The contacts expected at the start, on which warnings and the division of steps depend.
+  const ExpectedContacts& expected_contacts() const { return expected_contacts_; }
 
   /// The number of a vertex of the body in the file of the mesh; in a generated mesh the number of its point. Parts of
   /// one vertex share it. `no_point` for a vertex that refinement made.
@@ -90,10 +96,6 @@ class Simulation {
   const SimulatedBody& body() const { return *body_; }
   /// The dimension of the cells: 3, 2 for a surface, 0 for a chain.
   int dimension() const { return dimension_; }
-  /// The models of its cells, each once, springs last.
-  std::span<const Model> models() const { return models_; }
-  /// The number of cells of springs of each kind at the start.
-  const std::map<CellKind, std::size_t>& cells_of_springs() const { return cells_of_springs_; }
   std::size_t operations() const { return timeline_->operations(); }
   /// The warnings of its contacts; empty without contact.
   std::span<const ContactWarning> contact_warnings() const;
@@ -128,7 +130,6 @@ class Simulation {
 
  private:
   std::optional<EarlyEnd> take_step();
-  void count_cut(const SceneEvent& event, const Mesh& mesh, std::size_t facets);
   SpringSystem stepped_system() const;
   Motion stepped_motion();
   void step_another_part();
@@ -144,8 +145,7 @@ class Simulation {
   bool sums_work() const;
   void begin_work(double now);
   void add_work_of_forces(double now);
-  void examine_coordinates();
-  void examine_before_run();
+  void keep_sums();
   Fault of_body(Fault fault) const;
   Divergence diverged(const Fault& fault, bool goes_back = true);
 
@@ -165,16 +165,15 @@ class Simulation {
   bool within_step_ = false;  // after the first part of a step that is divided
   // [J] minus the work of forces that change in time up to the last change of them, and their potential there
   double applied_ = 0.0, potential_ = 0.0;
-  double work_from_ = 0.0;  // [s] when the work began that is added next
+  double kept_applied_ = 0.0;  // [J] at the state that the body may go back to
+  double work_from_ = 0.0;     // [s] when the work began that is added next
   std::optional<CoordinatePrecision> coarse_;
-  std::vector<StepResult> warnings_;
   int dimension_ = 0;
-  std::vector<Model> models_;
-  std::map<CellKind, std::size_t> cells_of_springs_;
+  ExpectedContacts expected_contacts_;
+  CellCounts counts_at_rest_;
+  std::vector<std::optional<std::size_t>> facets_of_events_;
   std::vector<std::uint32_t> file_number_;   // of each point of the mesh; empty where it is the point's own
   std::vector<std::uint32_t> body_of_cell_;  // by cell of the mesh, then by link; empty for one body
-  std::vector<SelectionCount> selections_;
-  std::vector<StiffBody> stiff_bodies_;
 };
 
 }  // namespace dartboard

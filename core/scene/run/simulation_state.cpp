@@ -29,7 +29,7 @@ void Simulation::state(Archive& archive) {
   archive.part("integrator");
   integrator_->state(archive);
   archive.part("work of forces");
-  archive(applied_, potential_);
+  archive(applied_, potential_, kept_applied_);
   archive.part("watch over the motion");
   archive(watch_);
   if (!archive.reads()) return;

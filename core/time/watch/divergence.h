@@ -76,6 +76,8 @@ class DivergenceDetector {
   }
 
   std::uint64_t checks() const { return checks_; }
+  /// Is the state kept last the present one?
+  bool has_just_kept() const { return since_kept_ == 0; }
   std::size_t bytes() const { return bytes_of(kept_x_, kept_v_); }
   /// Bytes of the lists of driven vertices and of the springs at them.
   std::size_t driven_bytes() const { return bytes_of(driven_, driven_springs_); }

@@ -61,6 +61,20 @@ TEST(PlotText, LongTitlesAreBrokenAndShortenedToTheWidthOfThePicture) {
   EXPECT_EQ(quoted_title(std::string(100000, 'a'), 200, 10.0), "'" + std::string(20, 'a') + "...'");
 }
 
+// kanji, an emoji, and letters and signs of the font's ranges
+TEST(PlotText, DrawnNamesHaveAQuestionMarkForEachCharacterThatTheFontLacks) {
+  const std::string name = "\xE8\x82\x9D\xE8\x87\x93 \xF0\x9F\x98\x80 \xC3\xA9\xD0\x94\xE1\xBC\x80\xE2\x89\xA4";
+  const std::string drawn = "?? ? \xC3\xA9\xD0\x94\xE1\xBC\x80\xE2\x89\xA4";
+  EXPECT_EQ(quoted_title(name, 400, 10.0), "'" + drawn + "'");
+  EXPECT_EQ(data_string(name), '"' + drawn + '"');
+  const PlotSeries series{.title = name, .points = {{1.0, 1.0}}, .colour = "#ff0000"};
+  EXPECT_NE(plot_element(series, "x").find("title '" + drawn + "'"), std::string::npos);
+}
+
+TEST(PlotText, FilesKeepTheirNamesWhateverTheFont) {
+  EXPECT_EQ(plot_source("\xE8\x82\x9D.dat"), "'./\xE8\x82\x9D.dat'");
+}
+
 // A line of letters that just fits into the picture is broken if a legend takes a part of the width.
 TEST(PlotText, TitlesAreCentredBesideTheLegend) {
   Plot plot = small_plot();

@@ -34,7 +34,7 @@ TEST(ContactFriction, TakesTheShareOfTheNormalMomentumThatItMay) {
 TEST(ContactFriction, IsNothingWhereAFloorLeavesFasterThanItPushes) {
   TouchingVertices body = one_vertex({0, 0, -0.001}, {1, 0, 0});
   ObstacleContact contact({contact_law(3, 0.2, 0.5)}, {{HalfSpace{}, {0, 0, -1}}}, body.samples);
-  ContactImpulses impulses(contact);
+  ContactImpulses impulses(&contact);
   for (int k = 0; k < 20; ++k) body.step(contact, impulses, 1e-4);
   EXPECT_EQ(body.v[0][0], 1.0);
   EXPECT_EQ(impulses.losses().rubbed, 0.0);
@@ -47,7 +47,7 @@ TEST(ContactFriction, TakesNoMoreThanTheNormalMomentumThatCanBeTurned) {
     const ContactLaw law = contact_law(3, 0.5, 0.25);
     TouchingVertices body = one_vertex({0, 0, speed > 0.0 ? 0.0 : -0.001}, {100, 0, -speed});
     ObstacleContact contact({law}, {{HalfSpace{}}}, body.samples);
-    ContactImpulses impulses(contact);
+    ContactImpulses impulses(&contact);
     const double h = 0.01, turned = 1.5 * mass * speed, lying = law.force(area, 0.001);
     const auto none = [](std::span<const Vector3d>, std::span<const Vector3d>, std::span<Vector3d> a) {
       std::ranges::fill(a, Vector3d(0, 0, 0));
@@ -72,7 +72,7 @@ struct Slope {
         down(std::cos(angle), 0, -std::sin(angle)),
         body(one_vertex({0.3, -0.7, 0.4}, {0, 0, 0})),
         contact({contact_law(exponent, restitution, friction)}, {{HalfSpace{body.x[0], unit(normal)}}}, body.samples),
-        impulses(contact) {
+        impulses(&contact) {
     normal = std::get<HalfSpace>(contact.obstacles()[0].shape).normal;
     down = Vector3d(normal[2], 0, -normal[0]);
     body.gravity = {0, 0, -g};
@@ -116,7 +116,7 @@ struct FourOnASlope {
       : normal(Slope::unit({std::sin(angle()), 0, std::cos(angle())})),
         down(normal[2], 0, -normal[0]),
         contact({contact_law(3, 0.5, mu)}, {{HalfSpace{{0, 0, 0}, normal}}}, body.samples),
-        impulses(contact) {
+        impulses(&contact) {
     const double depth = contact.laws()[0].depth_at_rest(4 * mass * Slope::g * normal[2] / area);
     for (const double a : {0.0, 0.1})
       for (const double b : {0.0, 0.1}) body.x.emplace_back(a * down + b * Vector3d(0, 1, 0) - depth * normal);

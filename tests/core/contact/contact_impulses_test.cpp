@@ -51,7 +51,7 @@ TEST(ContactImpulses, LeaveABodyOfManySamplesItsRestitution) {
       for (std::uint32_t k = 0; k < 4; ++k) plate.samples.push_back({{k}, 1, area / 12});
       plate.samples.push_back({{0, 1, 2, 3}, 4, area / 1.5});
       ObstacleContact contact({contact_law(p, 0.5, 0.0)}, {{HalfSpace{}}}, plate.samples);
-      ContactImpulses impulses(contact);
+      ContactImpulses impulses(&contact);
       while (plate.x[0][2] > 0.0) plate.step(contact, impulses, h);
       while (plate.x[0][2] <= 0.0) plate.step(contact, impulses, h);
       for (const Vector3d& v : plate.v) EXPECT_NEAR(v[2] / speed, 0.5, 1e-4) << p << ' ' << speed;
@@ -80,7 +80,7 @@ TEST(ContactImpulses, AccountForAllEnergyThatIsNotConserved) {
     ContactLaw soft = contact_law(3, 0.6, 0.3), rough = contact_law(4, 1.0, 0.8), smooth = contact_law(3, 0.5, 0.0);
     for (ContactLaw* law : {&soft, &rough, &smooth}) law->depth = 0.02;
     ObstacleContact contact({soft, rough, smooth}, {floor, ball, block}, body.samples);
-    ContactImpulses impulses(contact);
+    ContactImpulses impulses(&contact);
     const double before = body.energy(contact);
     for (int k = 0; k < std::lround(0.5 / h); ++k) body.step(contact, impulses, h);
     const ContactLosses& lost = impulses.losses();
@@ -101,7 +101,7 @@ TEST(ContactImpulses, BounceInTheFrameOfTheObstacle) {
     TouchingVertices body = one_vertex({0, 0, 1e-4}, {0.1, 0, -1});
     Obstacle lift{HalfSpace{}, {0.1, 0, 1.0}};
     ObstacleContact contact({law}, {lift}, body.samples);
-    ContactImpulses impulses(contact);
+    ContactImpulses impulses(&contact);
     const double h = 1e-3 * law.depth_at_impact(0.5 * mass * 4 / area) / 2;
     const double before = body.energy(contact);
     do body.step(contact, impulses, h);
@@ -124,7 +124,7 @@ TEST(ContactImpulses, LeaveFixedVerticesAlone) {
     body.fixed = {1, 0, 0};
     body.samples = {{{0}, 1, area}, {{0, 1, 2, 0}, 3, area}};
     ObstacleContact contact({contact_law(3, 0.5, 0.3)}, {{HalfSpace{}}}, body.samples);
-    ContactImpulses impulses(contact);
+    ContactImpulses impulses(&contact);
     const auto kinetic = [&] { return 0.5 * mass * (body.v[1].squaredNorm() + body.v[2].squaredNorm()); };
     const double before = kinetic();
     const auto none = [](std::span<const Vector3d>, std::span<const Vector3d>, std::span<Vector3d> a) {
@@ -151,7 +151,7 @@ TEST(ContactImpulses, LeaveAVertexOnItsRail) {
   Obstacle slope{HalfSpace{{0, 0, 0}, Vector3d(1, 0, 1).normalized()}};
   const ContactLaw law = contact_law(3, 0.5, 0.0);
   ObstacleContact contact({law}, {slope}, body.samples);
-  ContactImpulses impulses(contact);
+  ContactImpulses impulses(&contact);
   // half of 1 / mass is along the normal, and it starts inside as if it had come in at `first`
   const double h = 1e-3, depth = 0.001 / std::sqrt(2.0), mobility = 0.5 / mass,
                first = std::sqrt(2.0 + 2.0 * law.energy(area, depth) * mobility),
@@ -176,7 +176,7 @@ TEST(ContactImpulses, OnlyPushWhatAnObstacleLeaves) {
             TouchingVertices body = one_vertex({0, 0, -0.001}, {0, 0, 0});
             body.gravity = {0, 0, -g};
             ObstacleContact contact({contact_law(p, e, 0.0)}, {{HalfSpace{}, {0, 0, -leaves}}}, body.samples);
-            ContactImpulses impulses(contact);
+            ContactImpulses impulses(&contact);
             double before = 0.0;
             for (int k = 0; k < 50; ++k) {
               body.step(contact, impulses, h);
@@ -194,7 +194,7 @@ TEST(ContactImpulses, LeaveASampleAtRestWhoseForceVanishes) {
     for (const double depth : {1e-100, 1e-170, 5e-324}) {
       TouchingVertices body = one_vertex({0, 0, -depth}, {0, 0, 0});
       ObstacleContact contact({contact_law(p, 0.5, 0.3)}, {{HalfSpace{}}}, body.samples);
-      ContactImpulses impulses(contact);
+      ContactImpulses impulses(&contact);
       body.step(contact, impulses, 1e-4);
       EXPECT_GE(body.v[0][2], 0.0) << p << ' ' << depth;
       EXPECT_LE(body.v[0].norm(), 1e-90) << p << ' ' << depth;
@@ -210,13 +210,13 @@ TEST(ContactImpulses, BeginAtTheSpeedAtWhichASampleMeetsTheSurface) {
     law.pressure = 1e-12;
     TouchingVertices body = one_vertex({0, 0, height}, {0, 0, -speed});
     ObstacleContact contact({law}, {{HalfSpace{}}}, body.samples);
-    Bounces bounces(contact);
+    Bounces bounces(&contact);
     ContactLosses losses;
     const HeldVertices free;
-    bounces.before({0.0, h, contact, body.inverse_mass, free, body.x, body.v}, losses);
+    bounces.before({0.0, h, &contact, body.inverse_mass, free, body.x, body.v}, losses);
     body.x[0][2] -= speed * h + 0.5 * g * h * h;
     body.v[0][2] -= g * h;
-    bounces.after({h, h, contact, body.inverse_mass, free, body.x, body.v}, losses);
+    bounces.after({h, h, &contact, body.inverse_mass, free, body.x, body.v}, losses);
     // the factor is 1 + s rate / first
     const double rate = 0.5,
                  first = law.loss() * rate / (bounces.factor({.sample = 0, .obstacle = 0, .law = &law}, rate) - 1.0);
@@ -233,7 +233,7 @@ TEST(ContactImpulses, KnowTheFirstRateOfASampleByItsVertices) {
     two.inverse_mass.assign(2, 1.0 / mass);
     two.samples = {{{0}, 1, area}, {{1}, 1, area}};
     ObstacleContact contact({contact_law(3, 0.3, 0.0)}, {{HalfSpace{}}}, two.samples);
-    ContactImpulses impulses(contact);
+    ContactImpulses impulses(&contact);
     const double h = 2e-5;
     for (int k = 0; k < 1500; ++k) {
       two.step(contact, impulses, h);
@@ -260,7 +260,7 @@ TEST(ContactImpulses, TellWhetherAnythingHasChanged) {
   const auto changes = [&](const ContactLaw& law, const Obstacle& obstacle, const Vector3d& x) {
     TouchingVertices body = one_vertex(x, {0, 0, -1});
     ObstacleContact contact({law}, {obstacle}, body.samples);
-    ContactImpulses impulses(contact);
+    ContactImpulses impulses(&contact);
     const bool begin = impulses.begin(0.0, 1e-3, body.inverse_mass, body.fixed, body.x, body.v, none);
     const bool end = impulses.end(0.0, 1e-3, body.inverse_mass, body.fixed, body.x, body.v);
     EXPECT_EQ(begin, end);

@@ -143,7 +143,7 @@ TEST(JoinedBlocks, OfAWallOnAFloorPushSidewaysAloneAndTheFloorUpwards) {
 TEST(JoinedBlocks, LeaveABlockInsideOfAFloorWithoutContact) {
   ObstacleContact contact = contact_with({{HalfSpace{}}, {Block{{-1, -1, -1}, {1, 1, 0}}}});
   EXPECT_EQ(force_at(contact, {0, 0, -0.125}), Vector3d(0, 0, 0.125 * 0.125));
-  EXPECT_EQ(Contacts(contact).state_at(Places{{0, 0, -0.125}}).contacts, 1u);
+  EXPECT_EQ(Contacts(&contact).state_at(Places{{0, 0, -0.125}}).contacts, 1u);
   Penetration found;
   EXPECT_FALSE(contact.find_penetration(1, {0, 0, -0.125}, found));
   EXPECT_EQ(contact.penetration_in(1, {0, 0, -0.125}).depth, 0.0);
@@ -163,7 +163,7 @@ TEST(JoinedBlocks, LeaveABlockWithAllFacesInHalfSpacesWithoutContact) {
 // Where both blocks are, energies are not doubled.
 TEST(JoinedBlocks, ThatOverlapHaveOneContactWithASample) {
   ObstacleContact contact = contact_with({{Block{{-1, -1, -1}, {0.5, 1, 0}}}, {Block{{0, -1, -1}, {1, 1, 0}}}});
-  EXPECT_EQ(Contacts(contact).state_at(Places{{0.25, 0, -0.125}}).contacts, 1u);
+  EXPECT_EQ(Contacts(&contact).state_at(Places{{0.25, 0, -0.125}}).contacts, 1u);
   EXPECT_EQ(force_at(contact, {0.25, 0, -0.125}), Vector3d(0, 0, 0.125 * 0.125));
 }
 
@@ -203,7 +203,7 @@ TEST(JoinedBlocks, HaveAnEnergyWithoutJumps) {
     constexpr int steps = 400;
     double before = 0.0, pushed = 0.0;
     for (int n = 0; n <= steps; ++n) {
-      const ContactState state = Contacts(contact).state_at(Places{from + n * way / steps});
+      const ContactState state = Contacts(&contact).state_at(Places{from + n * way / steps});
       double now = 0.0;
       for (const Vector3d& force : state.force_on) now += force.norm();
       const double s = way.norm() / steps, stiffness = 50.0;

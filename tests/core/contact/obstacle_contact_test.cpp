@@ -180,7 +180,7 @@ TEST(ObstacleContact, IsTheSumOverAllObstaclesThatASampleIsInside) {
   EXPECT_LE((force[0] - Vector3d(0.5 * 2.0, 0, 0.5 * 2.0 + third + fourth)).norm(), 1e-15);
   EXPECT_LE((force[2] - Vector3d(0, 0, third + fourth)).norm(), 1e-15);
   EXPECT_LE((force[3] - Vector3d(0, 0, fourth)).norm(), 1e-15);
-  const ContactState state = Contacts(term).state_at(x);
+  const ContactState state = Contacts(&term).state_at(x);
   EXPECT_EQ(state.contacts, 4u);
   EXPECT_EQ(state.area, 0.5 + 0.5 + 0.25 + 0.125);
   EXPECT_EQ(state.energy, term.energy(x));
@@ -190,7 +190,7 @@ TEST(ObstacleContact, IsTheSumOverAllObstaclesThatASampleIsInside) {
   EXPECT_EQ(state.obstacle, 0u);
   EXPECT_EQ(state.force_on[0], Vector3d(0, 0, -(0.5 + 0.25 + 0.125) * 2.0));
   EXPECT_EQ(state.force_on[1], Vector3d(-1, 0, 0));
-  const ContactState none = Contacts(term).state_at(Places(4, Vector3d(0, 0, 3)));
+  const ContactState none = Contacts(&term).state_at(Places(4, Vector3d(0, 0, 3)));
   EXPECT_EQ(none.contacts, 0u);
   EXPECT_EQ(none.sample, ContactState::none);
   EXPECT_EQ(none.deepest, 0.0);
@@ -219,7 +219,7 @@ TEST(ObstacleContact, IsShiftedWithItsObstacles) {
   EXPECT_NEAR(still.energy(cloud.x), after, 1e-14 * after);
   const auto a = forces_of(term, cloud.x), b = forces_of(still, cloud.x);
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LE((a[i] - b[i]).norm(), 1e-14 * size_of(a)) << i;
-  EXPECT_NEAR(Contacts(term).state_at(cloud.x).energy, after, 1e-15 * after);
+  EXPECT_NEAR(Contacts(&term).state_at(cloud.x).energy, after, 1e-15 * after);
 }
 
 TEST(ObstacleContact, HasFrozenFrictionThatIsAForceLikeAnyOther) {
@@ -353,7 +353,7 @@ TEST(ObstacleContact, IsClearOnlyWhereNoSampleIsInside) {
       const double t = k % 2 == 0 ? 0.0 : random.next_signed();
       ObstacleContact term({laws_of(3)[of]}, {obstacles()[of]}, cloud.samples);
       const bool found_clear = t == 0.0 ? term.is_clear(cloud.x) : term.is_clear(cloud.x, cloud.w, t);
-      const std::size_t inside = Contacts(term).state_at(moved(cloud.x, cloud.w, t)).contacts;
+      const std::size_t inside = Contacts(&term).state_at(moved(cloud.x, cloud.w, t)).contacts;
       EXPECT_FALSE(found_clear && inside > 0) << of << ' ' << k;
       clear += found_clear ? 1 : 0;
       touching += inside > 0 ? 1 : 0;
@@ -371,7 +371,7 @@ TEST(ObstacleContact, IsClearOfAnObstacleAtItsPresentPlace) {
   EXPECT_TRUE(term.is_clear(cloud.x));
   term.place_at(9.0);
   EXPECT_FALSE(term.is_clear(cloud.x));
-  EXPECT_GT(Contacts(term).state_at(cloud.x).contacts, 0u);
+  EXPECT_GT(Contacts(&term).state_at(cloud.x).contacts, 0u);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +31,22 @@ Problem box_problem() {
   problem.material = {.density = 768, .stiffness = 64, .damping = 0.25, .viscosity = 0.5};
   for (const Eigen::Vector3d& p : problem.mesh.points) problem.initial_velocity.emplace_back(p.y(), -2 * p.x(), p.z());
   return problem;
+}
+
+TEST(SoftBody, RefusesStepsThatAreNotAboveZero) {
+  SoftBody body(box_problem(), "verlet");
+  for (const double h : {0.0, -1e-3, std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(body.step(h), InputError) << h;
+  EXPECT_EQ(body.time(), 0.0);
+}
+
+TEST(SoftBody, RefusesAPoissonsRatioForSprings) {
+  Problem problem = box_problem();
+  problem.material.poisson = 0.3;
+  EXPECT_THROW(SoftBody(problem, "verlet"), InputError);
+  problem.material.model = Model::neo_hookean;
+  problem.material.young = 1e4;
+  SoftBody(problem, "verlet").step(1e-5);
 }
 
 /// A run of a scene with the given body and material; a cut after 5 of 10 steps unless the body is a chain.

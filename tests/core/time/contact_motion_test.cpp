@@ -84,7 +84,7 @@ struct RubbingBody : TouchingBody {
 
   RubbingBody(std::string_view integrator, const Mesh& mesh, double young, const ContactLaw& law,
               const Obstacle& obstacle)
-      : TouchingBody(mesh, young, {law}, {obstacle}), impulses(*contact), method(make_integrator(integrator)) {}
+      : TouchingBody(mesh, young, {law}, {obstacle}), impulses(contact.get()), method(make_integrator(integrator)) {}
   StepResult step(double h) {
     const SpringSystem now = system();
     const Terms parts = terms_of(now);
@@ -101,7 +101,7 @@ struct RubbingBody : TouchingBody {
     for (const double m : body.mass) all += m;
     return linear_momentum(system(), body.v) / all;
   }
-  std::size_t contacts() const { return Contacts(*contact).state_at(body.x).contacts; }
+  std::size_t contacts() const { return Contacts(contact.get()).state_at(body.x).contacts; }
 };
 
 /// A soft box that falls on the plane z = 0, a little askew.
@@ -141,8 +141,8 @@ TEST(ContactMotion, HasTheOrderOfTheExponentUpToFour) {
       if (k == 0) {
         TouchingBody half = falling_box(p, height);
         ASSERT_TRUE(half.run("blanes-moan-4", duration / 3, coarse).ok());
-        EXPECT_GT(Contacts(*half.contact).state_at(half.body.x).contacts, 5u);
-        EXPECT_EQ(Contacts(*truth.contact).state_at(truth.body.x).contacts, 0u);
+        EXPECT_GT(Contacts(half.contact.get()).state_at(half.body.x).contacts, 5u);
+        EXPECT_EQ(Contacts(truth.contact.get()).state_at(truth.body.x).contacts, 0u);
       }
       first += std::pow(distance(once, truth), 2);
       last += std::pow(distance(eightfold, truth), 2);
@@ -166,7 +166,7 @@ TEST(ContactMotion, KeepsItsEnergyWithEnergyMomentumAmongObstaclesOfEveryKind) {
       const StepResult result = method->step(box.system(), box.body.motion(), 0.004);
       ASSERT_TRUE(result.ok()) << p << ": " << to_string(result) << " in step " << k;
       ASSERT_NEAR(box.energy() / before, 1.0, 1e-10) << p << ", step " << k;
-      contacts += Contacts(*box.contact).state_at(box.body.x).contacts;
+      contacts += Contacts(box.contact.get()).state_at(box.body.x).contacts;
     }
     EXPECT_GT(contacts, 100u);
   }
@@ -177,7 +177,7 @@ TEST(ContactMotion, IsTakenByEveryIntegrator) {
   const double duration = 0.06;
   TouchingBody truth = falling_box(3);
   ASSERT_TRUE(truth.run("rk4", duration, 4096).ok());
-  ASSERT_GT(Contacts(*truth.contact).state_at(truth.body.x).contacts, 3u);
+  ASSERT_GT(Contacts(truth.contact.get()).state_at(truth.body.x).contacts, 3u);
   for (const IntegratorEntry& entry : integrators()) {
     TouchingBody coarse = falling_box(3), fine = falling_box(3);
     const int steps = 256;
@@ -212,7 +212,7 @@ TEST(ContactMotion, SinksAsDeepAsItsWeightNeeds) {
         ++count;
       }
     EXPECT_NEAR(sum / static_cast<double>(count) / expected, std::pow(1.02, -1.0 / (p - 1)), 3e-3) << p;
-    const ContactState state = Contacts(*plate.contact).state_at(plate.body.x);
+    const ContactState state = Contacts(plate.contact.get()).state_at(plate.body.x);
     EXPECT_NEAR(-state.force_on[0][2] / (1000.0 * g * height * 0.25), 1.0, 1e-6) << p;
   }
 }
@@ -293,7 +293,7 @@ struct VertexOnASlope {
         normal(Vector3d(std::sin(angle), 0, std::cos(angle)).normalized()),
         down(normal[2], 0, -normal[0]),
         contact({law}, {{HalfSpace{x[0], normal}}}, samples),
-        impulses(contact),
+        impulses(&contact),
         terms(&contact) {
     x[0] -= law.depth_at_rest(0.25 * g * normal[2] / 0.03) * normal;
   }

@@ -297,7 +297,7 @@ TYPED_TEST(SkinOf, AFreshCutHasNoForceAndNoJump) {
   for (int k = 0; k < 60; ++k) {
     skin.apply(body, adapt(body, dissociate_something(body.map, random)));
     ASSERT_EQ(term.energy(body.vertices.position), 0.0);
-    ASSERT_EQ(Contacts(term).state_at(body.vertices.position).contacts, 0u);
+    ASSERT_EQ(Contacts(&term).state_at(body.vertices.position).contacts, 0u);
   }
   EXPECT_GT(skin.samples().size(), before + 60);
 }
@@ -311,7 +311,7 @@ TYPED_TEST(SkinOf, ACutAwayFromTheContactLeavesItsForces) {
   law.depth = 0.01;
   ObstacleContact term({law}, {{HalfSpace{{0, 0, 0.01}, {0, 0, 1}}}}, skin.samples());
   const double energy = term.energy(body.vertices.position),
-               area = Contacts(term).state_at(body.vertices.position).area;
+               area = Contacts(&term).state_at(body.vertices.position).area;
   ASSERT_GT(energy, 0.0);
   SplitMix64 random(8);
   int cuts = 0;
@@ -324,7 +324,7 @@ TYPED_TEST(SkinOf, ACutAwayFromTheContactLeavesItsForces) {
     skin.apply(body, adapt(body, dissociate_face(body.map, d)));
     ++cuts;
     ASSERT_NEAR(term.energy(body.vertices.position), energy, 1e-15 * energy);
-    ASSERT_NEAR(Contacts(term).state_at(body.vertices.position).area, area, 1e-14 * area);
+    ASSERT_NEAR(Contacts(&term).state_at(body.vertices.position).area, area, 1e-14 * area);
   }
 }
 
@@ -339,7 +339,7 @@ TEST(SkinOfHexahedra, CarriesOnTheEdgesOfItsSidesToo) {
   law.depth = 0.01;
   ObstacleContact term({law}, {{HalfSpace{{0, 0, 0.01}, {0, 0, 1}}}}, skin.samples());
   const double side = 4 * h * h / 6;
-  EXPECT_NEAR(Contacts(term).state_at(body.vertices.position).area, 1.0 + 4 * side, 1e-14);
+  EXPECT_NEAR(Contacts(&term).state_at(body.vertices.position).area, 1.0 + 4 * side, 1e-14);
   for (bool found = true; found;) {
     found = false;
     for (std::uint32_t k = 0; k < body.face_dart.size() && !found; ++k) {
@@ -352,7 +352,7 @@ TEST(SkinOfHexahedra, CarriesOnTheEdgesOfItsSidesToo) {
       found = true;
     }
   }
-  EXPECT_NEAR(Contacts(term).state_at(body.vertices.position).area, 1.0 + 6 * side, 1e-14);
+  EXPECT_NEAR(Contacts(&term).state_at(body.vertices.position).area, 1.0 + 6 * side, 1e-14);
 }
 
 TEST(SkinOfABody, IsStoredInItsOrder) {

@@ -88,7 +88,7 @@ inline Eigen::Vector3d bounce(const ContactLaw& law, const Eigen::Vector3d& v, d
                h = share * time;
   TouchingVertices body = one_vertex({0, 0, 2.5 * h * std::abs(v[2])}, v);
   ObstacleContact contact({law}, {{HalfSpace{}}}, body.samples);
-  ContactImpulses impulses(contact);
+  ContactImpulses impulses(&contact);
   while (body.x[0][2] > 0.0) body.step(contact, impulses, h);
   while (body.x[0][2] <= 0.0) body.step(contact, impulses, h);
   if (losses != nullptr) *losses = impulses.losses();

@@ -55,6 +55,19 @@ TEST(OrderLimit, IsTwoUnderLoadsThatChangeInTimeAndOneForTheMethodOfTwoSteps) {
   EXPECT_EQ(order_limit(parse(moving_box())).of(make_integrator("bdf2")->scheme()), 2.0);
 }
 
+TEST(OrderLimit, IsTwoForTheMethodOfTwoStepsTooWhereVerticesAreDrivenOverTime) {
+  for (const char* drive : {R"("path": [{"at": 0, "place": [0, 0, 0]}, {"at": 0.01, "place": [0.02, 0, 0]}])",
+                            R"("turn": {"axis": [1, 0, 0], "centre": [0, 0, 0],
+                                        "angles": [{"at": 0, "degrees": 0}, {"at": 0.01, "degrees": 10}]})"}) {
+    Json json = moving_box();
+    json["driven"] = Json::parse(std::string(R"([{"ids": [0], )") + drive + "}]");
+    const OrderLimit found = order_limit(parse(json));
+    EXPECT_EQ(found.because, "loads that change in time");
+    EXPECT_EQ(found.of(make_integrator("bdf2")->scheme()), 2.0) << drive;
+    EXPECT_EQ(found.of(make_integrator("rk4")->scheme()), 2.0) << drive;
+  }
+}
+
 TEST(OrderLimit, IsOneWithFriction) {
   const OrderLimit found = order_of(
       R"({"restitution": 0.5, "friction": 0.1, "obstacles": [{"sphere": {"centre": [0, 0, 0], "radius": 1}}]})");

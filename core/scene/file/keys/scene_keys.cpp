@@ -349,7 +349,8 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = cell_selection, .name = "tag", .type = object, .of = tag,
        .help = "the cells that the mesh file marks so ('dartboard mesh info' lists its marks)"},
       {.shape = tag, .name = "of", .type = text, .standard = "\"\"",
-       .help = "name of the marks in the file; may be left out where it has one kind of them"},
+       .help = "name of the marks in the file; may be left out where it has one kind of them, and where one kind alone has the "
+               "name that is asked for"},
       {.shape = tag, .name = "value", .type = integer, .range = {.least = -2147483648.0, .most = 2147483647.0},
        .help = "the mark, a number"},
       {.shape = tag, .name = "named", .type = text, .help = "or the name that the file gives to it"},
@@ -388,7 +389,9 @@ std::vector<SceneKey> keys_by_hand() {
       {.shape = event, .name = "tear", .type = object, .of = tear, .help = "tear a fan of faces around one vertex"},
       {.shape = event, .name = "tear_where_stressed", .type = object, .of = stress,
        .help = "tear wherever the stress is too large"},
-      {.shape = event, .name = "refine", .type = object, .of = refine, .help = "subdivide tetrahedra"},
+      {.shape = event, .name = "refine", .type = object, .of = refine,
+       .help = "subdivide tetrahedra; not in a scene with /driven, /forces or /attachments, with an event that releases "
+               "fixed vertices ('release'), or with one that tears along a seam ('plane' of 'tear_where_stressed')"},
       {.shape = event, .name = "release", .type = object, .of = vertex_selection,
        .help = "release fixed vertices, by where they are at rest; those held along some axes too"},
       {.shape = dissociate, .name = "points", .type = integer_lists, .range = number,
@@ -396,7 +399,8 @@ std::vector<SceneKey> keys_by_hand() {
                "edges, each by its two ends"},
       {.shape = dissociate, .name = "plane", .type = object, .of = plane,
        .help = "the faces between cells whose centroids are on different sides of a plane at that time; a cut follows faces "
-               "of the mesh, so refine along it first for a smoother one"},
+               "of the mesh, so refine along it first for a smoother one, where 'refine' is possible (not with /driven, /forces "
+               "or /attachments)"},
       {.shape = dissociate, .name = "within", .type = object, .of = within,
        .help = "only those of them whose centre is in this region at that time, as a blade cuts that ends inside the body"},
       {.shape = dissociate, .name = "blade", .type = object, .of = blade,

@@ -1,11 +1,14 @@
 #include "core/scene/file/keys/scene_pages.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
+#include "core/plain/error.h"
 #include "core/scene/file/keys/scene_keys.h"
 
 namespace dartboard {
@@ -114,6 +117,21 @@ std::string rule_text(const SceneRule& rule) {
   return fmt::format("'{}' stands without {}", first, quoted_list(names, ", "));
 }
 
+std::string section_of(const ShapeHelp& shape) {
+  std::string section = fmt::format("## {}\n\n{}\n", shape.name, shape.help);
+  for (const SceneRule& rule : scene_rules())
+    if (rule.shape == shape.shape) section += fmt::format("\nKeys: {}.\n", rule_text(rule));
+  section += "\n| key | value | default | what it is |\n|---|---|---|---|\n";
+  for (const SceneKey& key : scene_keys()) {
+    if (key.shape != shape.shape) continue;
+    const std::string standard = key.required           ? "required"
+                                 : key.standard.empty() ? "-"
+                                                        : fmt::format("`{}`", key.standard);
+    section += fmt::format("| `{}` | {} | {} | {} |\n", key.name, expectation(key), standard, key.help);
+  }
+  return section;
+}
+
 }  // namespace
 
 Json scene_schema() {
@@ -132,20 +150,18 @@ std::string scene_reference() {
       "of "
       "another type or outside its range is an error that names its path. Made from the table in "
       "`core/scene/file/keys/scene_keys.cpp` by `dartboard scene --keys`.\n";
-  for (const ShapeHelp& shape : scene_shapes()) {
-    page += fmt::format("\n## {}\n\n{}\n", shape.name, shape.help);
-    for (const SceneRule& rule : scene_rules())
-      if (rule.shape == shape.shape) page += fmt::format("\nKeys: {}.\n", rule_text(rule));
-    page += "\n| key | value | default | what it is |\n|---|---|---|---|\n";
-    for (const SceneKey& key : scene_keys()) {
-      if (key.shape != shape.shape) continue;
-      const std::string standard = key.required           ? "required"
-                                   : key.standard.empty() ? "-"
-                                                          : fmt::format("`{}`", key.standard);
-      page += fmt::format("| `{}` | {} | {} | {} |\n", key.name, expectation(key), standard, key.help);
-    }
-  }
+  for (const ShapeHelp& shape : scene_shapes()) page += "\n" + section_of(shape);
   return page;
+}
+
+std::string scene_reference(std::string_view object) {
+  std::vector<std::string> names;
+  for (const ShapeHelp& shape : scene_shapes()) {
+    if (shape.name == object) return section_of(shape);
+    names.emplace_back(shape.name);
+  }
+  throw InputError(
+      fmt::format("the page of keys has no section '{}'; expected one of: {}", object, fmt::join(names, ", ")));
 }
 
 }  // namespace dartboard

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 
 namespace dartboard {
 
@@ -12,5 +13,10 @@ nlohmann::ordered_json scene_schema();
 
 /// The reference page of scene files, in Markdown.
 std::string scene_reference();
+
+/// The section of that page about one object, such as "refine".
+///
+/// throws  InputError if there is no such section; the message names all
+std::string scene_reference(std::string_view object);
 
 }  // namespace dartboard

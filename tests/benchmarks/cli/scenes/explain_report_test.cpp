@@ -65,6 +65,17 @@ TEST(ExplainText, HasARowForEachPartAndOneForAll) {
   EXPECT_TRUE(text.ends_with("of a factor, its numbers.\n")) << text;
 }
 
+TEST(ExplainText, CountsOneThingInTheSingular) {
+  ScenePlan p = plan();
+  p.counts.edges = p.counts.faces = p.counts.cells = 1;
+  p.darts = p.steps = 1;
+  const std::string text = to_text(scene(), p, MeasuredSteps{1, 50.0});
+  EXPECT_TRUE(
+      text.starts_with("box\ngeneral 3-g-map; 11 vertices, 1 edge, 1 face, 1 cell, 1 dart; 1 step of 0.125 s\n"))
+      << text;
+  EXPECT_NE(text.find("over all of 1 step; the median"), std::string::npos) << text;
+}
+
 TEST(ExplainText, HasWhatNoItemPlans) {
   Table table({{"part"}, {"bytes", Align::right}, {"what"}, {"why"}});
   table.add_row({"map", "100", "alphas", "/events"});
@@ -97,9 +108,8 @@ SceneFile with_floor() {
 ScenePlan touching() {
   ScenePlan p = plan();
   p.contact = {
-      .obstacles =
-          {{.mass_behind = 100, .depth_at_rest = 0.0014, .speed = 3, .depth_at_impact = 0.0035, .share = 1.75}},
-      .share = 1.75,
+      .expected =
+          {{{.mass_behind = 100, .depth_at_rest = 0.0014, .speed = 3, .depth_at_impact = 0.0035, .share = 1.75}}, {}},
       .body_rate = 900,
       .contact_rate = 1000,
       .body_step = 0.002,
@@ -137,12 +147,12 @@ TEST(ExplainText, TellsHowDeepContactsWillBeAndWhichStepTheyAllow) {
 /// With bodies that touch in place of the floor.
 ScenePlan touching_bodies() {
   ScenePlan p = touching();
-  p.contact->obstacles.clear();
+  p.contact->expected.obstacles.clear();
   TouchForecast touch{.path = "/contact/pairs/1", .law = {}, .first = 0, .second = 2, .contact = {}};
   touch.law.pressure = 2000;
   touch.law.depth = 0.002;
-  touch.contact = touching().contact->obstacles[0];
-  p.contact->touches = {touch};
+  touch.contact = touching().contact->expected.obstacles[0];
+  p.contact->expected.bodies = {touch};
   return p;
 }
 

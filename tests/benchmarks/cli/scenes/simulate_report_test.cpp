@@ -10,6 +10,7 @@
 
 #include "benchmarks/cli/scenes/simulation_json.h"
 #include "core/scene/run/body_in_words.h"
+#include "tests/support/bodies/surveys_for_tests.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/tables_for_tests.h"
 
@@ -42,6 +43,7 @@ class SimulateReport : public ::testing::Test {
   }
   SimulationReport report() {
     return {.scene = scene_,
+            .survey = survey_,
             .simulation = simulation_,
             .result = result_,
             .settled = std::nullopt,
@@ -68,6 +70,7 @@ class SimulateReport : public ::testing::Test {
   }
 
   SceneFile scene_ = moving::parse(moving::moving_box());
+  SceneSurvey survey_ = survey_of(scene_);
   Simulation simulation_{scene_};
   RunResult result_;
 };
@@ -110,12 +113,12 @@ TEST_F(SimulateReport, BeginsWithWhatIsSimulatedAndWhatItsSelectionsHold) {
   SceneFile scene = scene_;
   scene.fixed = {{IdSelection{{0, 1, 2}}}, {BoxSelection{{0, 0, 0}, {0, 1, 1}}, 1}};
   const Simulation simulation(scene);
-  EXPECT_EQ(opening_of(scene, simulation, "short enough"),
+  EXPECT_EQ(opening_of(scene, survey_of(scene), simulation, "short enough"),
             "box\n" + simulation.body().map_name() + ", " + scene.integrator +
                 ", h = 0.001 s (short enough)\nsprings: " + in_words(simulation.body()) +
                 "\n/fixed/0: 3 of 27 vertices\n/fixed/1: 9 of 27 vertices, along x\n\n");
   scene.material = {.density = 768, .young = 2e4, .poisson = 0.3, .model = Model::stvk};
-  EXPECT_NE(opening_of(scene, Simulation(scene), "").find("\nstvk elements: "), std::string::npos);
+  EXPECT_NE(opening_of(scene, survey_of(scene), Simulation(scene), "").find("\nstvk elements: "), std::string::npos);
 }
 
 TEST_F(SimulateReport, SaysWhereTheResultsAreAndWhyThereIsNoVerdict) {
@@ -148,9 +151,24 @@ TEST_F(SimulateReport, OfADivergenceSaysWhatIsKept) {
                       ". The state of step 1, t = 0.75 s is kept, and what was written until then.\n");
   nlohmann::ordered_json json = to_json(r).at("divergence");
   EXPECT_EQ(json.at("value"), 1e30);
+  EXPECT_TRUE(json.at("stable").is_null());
   json.erase("value");
+  json.erase("stable");
   EXPECT_EQ(json, nlohmann::ordered_json::parse(R"({"step": 3, "time": 0.003, "quantity": "energy", "vertex": 7,
     "taken_back": 2, "kept_step": 1, "kept_time": 0.75})"));
+}
+
+TEST_F(SimulateReport, OfADivergenceComparesTheStepWithTheLongestStableOne) {
+  diverge();
+  result_.divergence->stable = 0.0005;
+  expect_words(report(), " A step of 0.001 s is too long for that state: at most 0.0005 s is stable.\n");
+  result_.divergence->stable = 0.002;
+  expect_words(report(), " The longest stable step of that state is 0.002 s.\n");
+  survey_.models = {Model::stvk};
+  expect_words(
+      report(),
+      " The longest stable step of that state is 0.002 s, and a shorter one where elements are deformed further.\n");
+  EXPECT_EQ(to_json(report()).at("divergence").at("stable"), 0.002);
 }
 
 TEST_F(SimulateReport, OfARefusedStepSaysWhyAndDoesNotHold) {

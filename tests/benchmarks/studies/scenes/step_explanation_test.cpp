@@ -71,6 +71,17 @@ TEST(StepExplanation, GivesTheStepThatEachRemedyMakesStable) {
   EXPECT_TRUE(std::isinf(remedy(e, "remove the 4 springs")));
 }
 
+TEST(StepExplanation, CountsOneSpringAndOneVertexInTheSingular) {
+  const StepExplanation e = explain_step(parse(Json::parse(R"({"name": "chain", "step": 1e-3, "duration": 10.0,
+    "body": {"generate": {"chain": {"links": 1, "spacing": 0.5}}}, "integrator": "verlet",
+    "fixed": [{"ids": [0]}], "material": {"density": 2.0, "stiffness": 100.0}})")));
+  ASSERT_EQ(e.springs.size(), 1u);
+  ASSERT_EQ(e.vertices.size(), 1u);
+  for (const char* what :
+       {"halve the stiffness of the 1 spring", "remove the 1 spring", "double the mass of the 1 vertex"})
+    remedy(e, what);
+}
+
 TEST(StepExplanation, GoesByTheLimitOfTheSimulation) {
   const SceneFile scene = chain("rk4", 1.0);
   const Simulation simulation(scene);

@@ -117,6 +117,23 @@ TEST(RecommendText, SaysWhatToTakeAndWhatElseThereIs) {
           "The best that real time allows: an error of 1.1e-02, with verlet.\n");
 }
 
+TEST(RecommendText, CountsOneThingInTheSingular) {
+  Recommendation r = recommendation();
+  r.features.events = 1;
+  r.candidates = {usable("rk4", 400.0), usable("verlet", 500.0)};
+  for (Candidate& c : r.candidates) c.steps = 1;
+  RecommendedScene scene;
+  scene.steps_for_error = 1;
+  std::string text = text_of(r, nullptr, false, 16.0);
+  for (const char* words : {", 1 event; omega_max", " s, 1 step: error", "Runner-up: verlet with 1 step, "})
+    EXPECT_NE(text.find(words), std::string::npos) << words << " is not in\n" << text;
+  r.candidates[0].steps = 2;
+  text = text_of(r, &scene, false, 16.0);
+  EXPECT_NE(text.find("The error takes 1 step; the events, and the times of loads and output, make them 2.\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST(RecommendText, SaysWhyTheStepIsNoLongerAndWhatIsTooSlow) {
   Recommendation r = recommendation();
   r.candidates = {usable("rk4", 200.0)};

@@ -301,6 +301,32 @@ TEST(SceneReference, HasALineForEveryKey) {
   for (const SceneKey& key : scene_keys()) EXPECT_NE(page.find("| `" + std::string(key.name) + "` |"), page.npos);
 }
 
+TEST(SceneReference, SaysWhatRefinementCannotBeCombinedWith) {
+  const std::string_view help = find_key(Shape::event, "refine")->help;
+  for (const char* words : {"/driven", "/forces", "/attachments", "'release'", "'plane' of 'tear_where_stressed'"})
+    EXPECT_NE(help.find(words), help.npos) << words;
+}
+
+TEST(SceneReference, HasEachSectionAlone) {
+  const std::string page = scene_reference();
+  std::string together = page.substr(0, page.find("\n## "));
+  for (const ShapeHelp& shape : scene_shapes()) together += "\n" + scene_reference(shape.name);
+  EXPECT_EQ(together, page);
+  EXPECT_EQ(scene_reference("refine").rfind("## refine\n", 0), 0u);
+}
+
+TEST(SceneReference, NamesAllSectionsWhereOneIsUnknown) {
+  try {
+    (void)scene_reference("refinement");
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    const std::string said = error.what();
+    EXPECT_EQ(said.rfind("the page of keys has no section 'refinement'; expected one of: scene, ", 0), 0u) << said;
+    for (const ShapeHelp& shape : scene_shapes())
+      EXPECT_NE(said.find(" " + std::string(shape.name)), said.npos) << shape.name;
+  }
+}
+
 // ---- times
 
 TEST(EventTimes, FallOnTheMultipleTheyAreInDecimals) {

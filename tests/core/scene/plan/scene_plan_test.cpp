@@ -210,6 +210,24 @@ TEST(ScenePlan, CountsTheTimesOfAnEventWithoutEnd) {
   EXPECT_EQ(forecast_events(scene, {}, 48).at(0).times, steps + 1);
 }
 
+TEST(ScenePlan, CountsOneThingInTheSingular) {
+  Json scene = with_events(moving_box(), R"([{"at": 0.005, "remove": {"ids": [3]}}])");
+  scene["fixed"] = Json::parse(R"([{"ids": [0]}])");
+  scene["driven"] = Json::parse(R"([{"ids": [26], "velocity": [0, 0, 1]}])");
+  scene["output"] = Json::parse(R"({"probes": [{"name": "p", "vertex": 5}], "frames_every": {"steps": 1},
+                                    "diagnostics_every": {"steps": 2}})");
+  const ScenePlan planned = plan_scene(parse(scene));
+  EXPECT_EQ(item(planned, Part::fixed)->why, "/fixed: 1 selection; /driven: 1");
+  EXPECT_TRUE(item(planned, Part::driven)->what.starts_with("paths of 1 vertex, and "))
+      << item(planned, Part::driven)->what;
+  EXPECT_EQ(item(planned, Part::driven)->why, "/driven: 1 selection");
+  EXPECT_EQ(item(planned, Part::event)->what, "remove, 1 time, some 1 operation");
+  EXPECT_EQ(item(planned, Part::probes)->what, "1 vertex followed");
+  EXPECT_EQ(item(planned, Part::frames)->why, "/output/frames_every: every step, the first and the last state");
+  EXPECT_EQ(item(planned, Part::diagnostics)->why,
+            "/output/diagnostics_every: every 2 steps, the first and the last state");
+}
+
 // ---- memory that no item plans
 
 TEST(ScenePlan, TellsApartWhatNoItemPlans) {

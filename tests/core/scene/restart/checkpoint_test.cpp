@@ -142,7 +142,7 @@ TEST_F(CheckpointTest, OfAnotherKindOrderOrFormatIsToldApart) {
   EXPECT_EQ(after_here(complaint()),
             "IoError checkpoint: was written by a processor with another order of bytes; expected one of ours");
   write("checkpoint", with(head + 4, 77));
-  EXPECT_EQ(after_here(complaint()), "IoError checkpoint: is of format 77; expected 21, which this program reads");
+  EXPECT_EQ(after_here(complaint()), "IoError checkpoint: is of format 77; expected 22, which this program reads");
 }
 
 TEST_F(CheckpointTest, ThatIsNotThereOrNoFileIsAnIoError) {

@@ -253,9 +253,9 @@ TEST(Checkpoints, AreLeftAtMultiplesOfTheKeyAndAtTheEnd) {
   EXPECT_EQ(checkpoints_of({{"checkpoint", 1.0}}), Steps{10});
 }
 
-TEST(Checkpoints, AreNotLeftWithoutTheKey) {
+TEST(Checkpoints, AreLeftWithoutTheKeyByARunThatIsCutShort) {
   EXPECT_EQ(checkpoints_of(Json::object()), Steps{});
-  EXPECT_EQ(checkpoints_of(Json::object(), 4), Steps{});
+  EXPECT_EQ(checkpoints_of(Json::object(), 4), Steps{4});
 }
 
 // Events that last to the end of the run last to its new end.
@@ -282,17 +282,20 @@ TEST(ContinuedRun, ForLongerIsThatOfALongerRun) {
   }
 }
 
-TEST(ContinuedRun, FromACheckpointOfTheKeyIsTheSame) {
+TEST(ContinuedRun, FromACheckpointOfTheKeyOrOfARunThatIsCutShortIsTheSame) {
   Json json = recorded_scene(with_events(moving_box(), eventful));
-  json["output"]["checkpoint"] = 0.003;
-  const SceneFile scene = parse(json);
-  const RunInMemory one = whole(scene);
-  for (const std::uint64_t most : {3u, 4u, 7u, 9u}) {
-    Simulation first(scene);
-    first.watch_events(true);
-    Record record;
-    run_scene(first, scene.output, record, most);
-    expect_same(continued(scene, std::move(record)), one);
+  for (const bool has_key : {true, false}) {
+    if (has_key) json["output"]["checkpoint"] = 0.003;
+    if (!has_key) json["output"].erase("checkpoint");
+    const SceneFile scene = parse(json);
+    const RunInMemory one = whole(scene);
+    for (const std::uint64_t most : {3u, 4u, 7u, 9u}) {
+      Simulation first(scene);
+      first.watch_events(true);
+      Record record;
+      run_scene(first, scene.output, record, most);
+      expect_same(continued(scene, std::move(record)), one);
+    }
   }
 }
 

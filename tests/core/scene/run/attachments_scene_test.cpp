@@ -14,6 +14,7 @@
 #include "core/scene/plan/scene_plan.h"
 #include "core/scene/run/scene_verdict.h"
 #include "core/time/watch/stable_step.h"
+#include "tests/support/bodies/surveys_for_tests.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/plan_memory.h"
 #include "tests/support/run_in_memory.h"
@@ -410,7 +411,7 @@ TEST(SceneAttachments, WarnOfNoCoordinates) {
   json["bodies"][1]["generate"]["box"] = Json::parse(R"({"cells": [2, 2, 2], "spacing": 0.125})");
   json["bodies"][1]["rotate"] = Json::parse(R"({"axis": [0, 0, 1], "degrees": 90})");
   json["bodies"][1]["translate"] = {0.25, 1e-15, 0.25};
-  EXPECT_FALSE(Simulation(parse(json)).coordinate_warning());
+  EXPECT_FALSE(survey_of(parse(json)).coarse_coordinate);
 }
 
 }  // namespace

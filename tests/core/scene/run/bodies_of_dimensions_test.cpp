@@ -9,6 +9,7 @@
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/plan/scene_plan.h"
 #include "core/time/system/energy.h"
+#include "tests/support/bodies/surveys_for_tests.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/run_in_memory.h"
 
@@ -332,9 +333,10 @@ TEST(BodiesOfDimensions, AreExplainedWithAllTheirMemory) {
     EXPECT_EQ(plan.counts.edges, simulation.body().counts().edges);
     EXPECT_EQ(plan.counts.faces, simulation.body().counts().faces);
     if (on_map) {
-      ASSERT_EQ(plan.selections.size(), simulation.selections().size());
-      EXPECT_EQ(plan.selections.back().all, simulation.selections().back().all);
-      EXPECT_EQ(plan.selections.back().selected, simulation.selections().back().selected);
+      const SceneSurvey survey = survey_of(parsed);
+      ASSERT_EQ(plan.selections.size(), survey.selections.size());
+      EXPECT_EQ(plan.selections.back().all, survey.selections.back().all);
+      EXPECT_EQ(plan.selections.back().selected, survey.selections.back().selected);
       EXPECT_GT(plan.selections.back().selected, 0u);
     }
   }

@@ -11,7 +11,7 @@
 #include "core/scene/body/contact_forecast.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/plan/scene_plan.h"
-#include "core/scene/run/scene_warnings.h"
+#include "core/scene/survey/scene_warnings.h"
 #include "core/time/integrators.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/plan_memory.h"
@@ -356,7 +356,7 @@ TEST(ContactForecast, HasTheClosedFormsOfAColumn) {
   scene["contact"]["obstacles"].push_back(
       Json::parse(R"({"box": {"min": [0, 0, -3], "max": [1, 1, -2]}, "depth": 0.004})"));
   const SceneFile file = parse(scene);
-  const std::vector<ContactForecast> f = forecast_contacts(file, make_problem(file));
+  const std::vector<ContactForecast> f = expect_contacts(file, make_problem(file)).obstacles;
   ASSERT_EQ(f.size(), 3u);
   EXPECT_NEAR(f[0].mass_behind, 100, 1e-12);
   EXPECT_NEAR(f[0].depth_at_rest, 0.002 * std::sqrt(981.0 / 2000), 1e-15);
@@ -368,7 +368,7 @@ TEST(ContactForecast, HasTheClosedFormsOfAColumn) {
   EXPECT_NEAR(f[1].depth_at_rest, 0.002 * std::sqrt(981.0 / 4000), 1e-15);
   EXPECT_NEAR(f[2].speed, std::sqrt(2 * g * 2.101), 1e-12);
   EXPECT_NEAR(f[2].depth_at_rest, 0.004 * std::sqrt(981.0 / 2000), 1e-15);
-  EXPECT_EQ(largest_share(f), f[2].share);
+  EXPECT_EQ(expect_contacts(file, make_problem(file)).share(), f[2].share);
   EXPECT_GT(f[2].share, f[1].share);
 }
 
@@ -377,7 +377,7 @@ TEST(ContactForecast, IsNoFasterThanARunLasts) {
   scene["initial_velocity"] = {3, 0, 4};
   scene["contact"]["obstacles"][0]["plane"]["point"] = {0, 0, -1000};
   const SceneFile file = parse(scene);
-  EXPECT_NEAR(forecast_contacts(file, make_problem(file))[0].speed, 5 + 0.05 * g, 1e-12);
+  EXPECT_NEAR(expect_contacts(file, make_problem(file)).obstacles[0].speed, 5 + 0.05 * g, 1e-12);
 }
 
 TEST(ContactForecast, TakesTheMassBehindASurfaceFromItsDensity) {
@@ -385,7 +385,7 @@ TEST(ContactForecast, TakesTheMassBehindASurfaceFromItsDensity) {
   scene["body"] = Json::parse(R"({"generate": {"sheet": {"cells": [2, 2], "spacing": 0.05}}})");
   scene["material"]["density"] = 0.2;
   const SceneFile surface = parse(scene);
-  EXPECT_EQ(forecast_contacts(surface, make_problem(surface))[0].mass_behind, 0.2);
+  EXPECT_EQ(expect_contacts(surface, make_problem(surface)).obstacles[0].mass_behind, 0.2);
 }
 
 TEST(ContactForecast, KnowsHowFastVerticesAreDriven) {
@@ -393,7 +393,7 @@ TEST(ContactForecast, KnowsHowFastVerticesAreDriven) {
   scene["gravity"] = {0, 0, 0};
   scene["driven"] = Json::parse(R"([{"plane": {"point": [0, 0, 0.1], "normal": [0, 0, 1]}, "velocity": [0, 3, -4]}])");
   const SceneFile file = parse(scene);
-  EXPECT_DOUBLE_EQ(forecast_contacts(file, make_problem(file))[0].speed, 5.0);
+  EXPECT_DOUBLE_EQ(expect_contacts(file, make_problem(file)).obstacles[0].speed, 5.0);
 }
 
 // The limit is for a mass on a spring of the contact's stiffness: 2 / omega of Verlet's method. The bound is not below
@@ -444,7 +444,8 @@ TEST(ContactScene, WarnsOfAStepThatIsTooLongWhereContactsAreAsDeepAsIsExpected) 
   scene["contact"]["pressure"] = 2e6;
   const SceneFile file = parse(scene);
   const Simulation simulation(file);
-  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation), "is stable where contacts are as deep as is expected"));
+  EXPECT_TRUE(
+      some_warning_has(warnings_of(file, {}, simulation), "is stable where contacts are as deep as is expected"));
   Json soft = scene;
   soft["contact"]["pressure"] = 2000;
   const SceneFile other = parse(soft);
@@ -465,7 +466,7 @@ TEST(ContactScene, WarnsOfABodyThatStartsInside) {
   EXPECT_EQ(warning.kind, ContactWarning::Kind::starts_inside);
   EXPECT_EQ(warning.samples, 17u);
   EXPECT_DOUBLE_EQ(warning.value, 0.001);
-  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation),
+  EXPECT_TRUE(some_warning_has(warnings_of(file, {}, simulation),
                                "17 places of the boundary are inside obstacles at the start, the deepest vertex "));
   EXPECT_TRUE(Simulation(parse(above_a_floor())).contact_warnings().empty());
 }
@@ -499,7 +500,7 @@ TEST(ContactScene, WarnsOnceOfAContactThatIsDeeperThanItsLawSays) {
   // 1 mm to the floor and 2 mm into it at some 3 m/s
   EXPECT_NEAR(warning.time, 0.001, 0.0004);
   EXPECT_TRUE(
-      some_warning_has(warnings_of(file, simulation), "m inside /contact/obstacles/0, deeper than the 0.002 m"));
+      some_warning_has(warnings_of(file, {}, simulation), "m inside /contact/obstacles/0, deeper than the 0.002 m"));
 }
 
 /// A block of 0.5 kg that slides over boxes, to the places of its vertices and their velocities at the end.
@@ -564,7 +565,7 @@ TEST(ContactScene, WarnsOfAVertexThatMayPassThroughAnObstacleInAStep) {
   ASSERT_EQ(simulation.contact_warnings().size(), 2u);
   EXPECT_EQ(simulation.contact_warnings()[0].kind, ContactWarning::Kind::will_be_fast);
   EXPECT_EQ(simulation.contact_warnings()[1].kind, ContactWarning::Kind::too_thin);
-  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation),
+  EXPECT_TRUE(some_warning_has(warnings_of(file, {}, simulation),
                                "at the expected speeds a vertex moves 0.006 m in a step relative to "
                                "/contact/obstacles/0"));
   ASSERT_FALSE(simulation.advance());
@@ -576,7 +577,7 @@ TEST(ContactScene, WarnsOfAVertexThatMayPassThroughAnObstacleInAStep) {
     }
     EXPECT_NEAR(warning.limit, 0.005, 1e-15);
   }
-  EXPECT_TRUE(std::ranges::any_of(warnings_of(file, simulation), [](const std::string& warning) {
+  EXPECT_TRUE(std::ranges::any_of(warnings_of(file, {}, simulation), [](const std::string& warning) {
     return warning.starts_with("at t = ") &&
            warning.find(" moves 0.006 m in a step relative to /contact/obstacles/0") != std::string::npos;
   }));

@@ -7,9 +7,9 @@
 
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/plan/scene_plan.h"
-#include "core/scene/run/scene_warnings.h"
 #include "core/time/integrators.h"
 #include "core/time/system/energy.h"
+#include "tests/support/bodies/surveys_for_tests.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/plan_memory.h"
 
@@ -158,7 +158,7 @@ TEST(ElementScene, IsToldToBeDampedOrNot) {
                   springs = plan(moving_box());
   const auto item = [](const ScenePlan& p) { return std::ranges::find(p.items, Part::cell_damping, &PlanItem::part); };
   ASSERT_NE(item(with), with.items.end());
-  EXPECT_EQ(item(with)->why, "/material/damping: a ratio of 0.025 at 1 Hz");
+  EXPECT_EQ(item(with)->why, "/material/damping: a ratio of 0.05 at 2 Hz");
   EXPECT_EQ(item(without), without.items.end());
   EXPECT_EQ(item(springs), springs.items.end());
   const auto left_out = [](const ScenePlan& p) {
@@ -245,7 +245,7 @@ TEST(ElementScene, IsTornByTheStressOfItsElements) {
 TEST(ElementScene, IsNotWarnedOfShapesThatSpringsDoNotHold) {
   const auto warnings = [](const Json& json) {
     const SceneFile scene = parse(json);
-    return warnings_of(scene, Simulation(scene));
+    return warnings_before_run(scene);
   };
   Json elements = in_cells(of_elements(), "hexahedra"), springs = in_cells(moving_box(), "hexahedra");
   const auto of_shape = [&](const Json& json) {
@@ -287,7 +287,7 @@ TEST(ElementScene, IsToldWhereItsCoordinatesAreTooCoarse) {
   for (const char* kind : {"tetrahedra", "hexahedra", "mixed"}) {
     Json scene = in_cells(of_elements(), kind);
     scene.erase("initial_velocity");  // which turns it around where it was
-    const auto warnings = [&] { return warnings_of(parse(scene), Simulation(parse(scene))); };
+    const auto warnings = [&] { return warnings_before_run(parse(scene)); };
     EXPECT_TRUE(warnings().empty()) << kind;
     scene["body"]["translate"] = {0, -1e9, 0};
     ASSERT_EQ(warnings().size(), 1u) << kind;

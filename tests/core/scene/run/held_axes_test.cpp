@@ -10,6 +10,7 @@
 
 #include "core/scene/file/scene_problem.h"
 #include "core/time/integrators.h"
+#include "tests/support/bodies/surveys_for_tests.h"
 #include "tests/support/moving_box.h"
 
 namespace dartboard::held_axes_test {
@@ -189,9 +190,10 @@ TEST(HeldAxes, AreLetGoByARelease) {
 TEST(HeldAxes, AreSaidInSelectionsAndFrames) {
   Json scene = box(true, springs);
   scene["fixed"].push_back(Json::parse(R"({"ids": [0]})"));
+  const SceneSurvey survey = survey_of(parse(scene));
   const Simulation simulation(parse(scene));
-  EXPECT_EQ(to_string(simulation.selections()[0]), "/fixed/0: 9 of 27 vertices, along x");
-  EXPECT_EQ(to_string(simulation.selections()[1]), "/fixed/1: 1 of 27 vertices");
+  EXPECT_EQ(to_string(survey.selections[0]), "/fixed/0: 9 of 27 vertices, along x");
+  EXPECT_EQ(to_string(survey.selections[1]), "/fixed/1: 1 of 27 vertices");
   const Frame frame = simulation.frame({.held = true});
   EXPECT_EQ(std::ranges::count(frame.held, 3), 8);
   EXPECT_EQ(std::ranges::count(frame.held, 1), 1);

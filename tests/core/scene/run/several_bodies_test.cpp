@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <memory>
 
+#include "core/scene/file/cell_tags.h"
 #include "core/scene/file/load_mesh.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/plan/scene_plan.h"
-#include "core/scene/run/scene_warnings.h"
 #include "core/time/system/energy.h"
 #include "tests/support/bodies/corner_body.h"
+#include "tests/support/bodies/surveys_for_tests.h"
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/plan_memory.h"
@@ -160,7 +162,7 @@ TEST(SceneRegions, WarnOfLooseShapesWhereCellsAreSpringsAlone) {
   const auto said = [](const Json& json) {
     const SceneFile file = parse(json);
     std::string all;
-    for (const std::string& warning : warnings_of(file, Simulation(file))) all += warning + "\n";
+    for (const std::string& warning : warnings_before_run(file)) all += warning + "\n";
     return all;
   };
   EXPECT_NE(said(scene).find("(4 of kind hexahedron in 6 ways)"), std::string::npos) << said(scene);
@@ -226,7 +228,7 @@ class MarkedMesh : public FolderTest {
   }
   SceneFile scene(const char* tag) const {
     Json json = with_region("{}", heavy);
-    json["body"] = {{"mesh", "two.mesh"}};
+    json["body"] = {{"mesh", file_}};
     json["regions"][0]["cells"] = {{"tag", Json::parse(tag)}};
     SceneFile scene = parse_scene(json.dump(), "file", folder_);
     load_mesh(scene);
@@ -240,6 +242,8 @@ class MarkedMesh : public FolderTest {
     }
     return "accepted";
   }
+
+  const char* file_ = "two.mesh";
 };
 
 TEST_F(MarkedMesh, NamesItsRegionsByTheirMarks) {
@@ -254,6 +258,49 @@ TEST_F(MarkedMesh, SaysWhichMarksThereAre) {
             "file: /regions/0/cells/tag: names a kind of marks that no mesh file has; expected 'reference'");
   EXPECT_EQ(refusal_of(R"({"named": "left"})"),
             "file: /regions/0/cells/tag: names a mark that no cell has; expected 7, 9");
+}
+
+/// Two tetrahedra of the entities 1 and 2 and the physical groups 5 and 6, with a name for each group.
+std::string gmsh_with(const char* name_of_5, const char* name_of_6) {
+  return std::string("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 5 \"") + name_of_5 + "\"\n3 6 \"" +
+         name_of_6 +
+         "\"\n$EndPhysicalNames\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n$EndNodes\n"
+         "$Elements\n2\n1 4 2 5 1 1 2 3 4\n2 4 2 6 2 2 3 4 5\n$EndElements\n";
+}
+
+/// A mesh with two kinds of marks, of which the groups alone have names.
+class MarkedGmsh : public MarkedMesh {
+ protected:
+  void SetUp() override {
+    FolderTest::SetUp();
+    std::ofstream(folder_ / "two.msh") << gmsh_with("left", "right");
+    file_ = "two.msh";
+  }
+};
+
+TEST_F(MarkedGmsh, NamesARegionByANameThatOneKindOfMarksHas) {
+  EXPECT_EQ(make_problem(scene(R"({"named": "right"})")).cell_material, (std::vector<MaterialNumber>{0, 1}));
+}
+
+TEST_F(MarkedGmsh, StillHasToSayWhichKindOfMarksANumberMeans) {
+  for (const char* tag : {R"({"value": 5})", R"({"named": "middle"})"})
+    EXPECT_EQ(refusal_of(tag),
+              "file: /regions/0/cells/tag: does not say which kind of marks it means; expected \"of\": 'entity' or "
+              "'physical group'");
+}
+
+TEST_F(MarkedGmsh, HasToSayTheKindWhereTwoKindsHaveTheName) {
+  SceneFile file = scene(R"({"named": "left"})");
+  LoadedMesh named_twice = *file.body.loaded;
+  for (CellTags& marks : named_twice.tags) marks.names = {{1, "left"}, {5, "left"}};
+  file.body.loaded = std::make_shared<const LoadedMesh>(named_twice);
+  try {
+    cells_with(file, {.tag = "", .value = "left"}, "/tag");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("does not say which kind of marks it means"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST_F(MarkedMesh, TellsEventsTheirCellsToo) {

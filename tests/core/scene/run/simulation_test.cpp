@@ -15,6 +15,7 @@
 #include "core/plain/error.h"
 #include "core/scene/run/scene_run.h"
 #include "core/time/integrators.h"
+#include "tests/support/bodies/surveys_for_tests.h"
 #include "tests/support/moving_box.h"
 
 namespace dartboard::simulation_test {
@@ -284,11 +285,10 @@ TEST(Simulation, WarnsOfCoordinatesThatAreRoundedToMoreThanAMillionthOfASpring) 
   std::filesystem::remove(file);
   write_medit(file, mesh);
   Json scene = moving_box();
-  EXPECT_FALSE(Simulation(parse(scene)).coordinate_warning());
+  EXPECT_FALSE(survey_of(parse(scene)).coarse_coordinate);
   scene["body"] = {{"mesh", file.string()}};
   scene["initial_velocity"] = {1, 0, 0};
-  const Simulation simulation(parse(scene));
-  const auto& warning = simulation.coordinate_warning();
+  const auto warning = survey_of(parse(scene)).coarse_coordinate;
   ASSERT_TRUE(warning);
   EXPECT_EQ(warning->axis, 1);
   EXPECT_EQ(warning->coordinate, mesh.points[warning->vertex].y());  // by its number in the file
@@ -297,19 +297,19 @@ TEST(Simulation, WarnsOfCoordinatesThatAreRoundedToMoreThanAMillionthOfASpring) 
 
 TEST(Simulation, WarnsOfStepsThatRoundingLoses) {
   Json scene = moving_box();
-  EXPECT_TRUE(Simulation(parse(scene)).warnings().empty());
+  EXPECT_TRUE(survey_of(parse(scene)).warnings.empty());
   scene["step"] = 1e-18;
   scene["duration"] = 1e-17;
-  const Simulation simulation(parse(scene));
-  ASSERT_EQ(simulation.warnings().size(), 1u);
-  EXPECT_EQ(simulation.warnings()[0].code, StepCode::step_underflow);
-  EXPECT_NE(explained(simulation.warnings()[0]).find("longer steps"), std::string::npos);
+  const SceneSurvey survey = survey_of(parse(scene));
+  ASSERT_EQ(survey.warnings.size(), 1u);
+  EXPECT_EQ(survey.warnings[0].code, StepCode::step_underflow);
+  EXPECT_NE(explained(survey.warnings[0]).find("longer steps"), std::string::npos);
 }
 
 TEST(Simulation, DoesNotWarnOfMotionsThatAnImplicitStepIsNotMeantToResolve) {
   Json scene = too_stiff("refuse");
   scene["integrator"] = "backward-euler";
-  EXPECT_TRUE(Simulation(parse(scene)).warnings().empty());
+  EXPECT_TRUE(survey_of(parse(scene)).warnings.empty());
 }
 
 TEST(Simulation, WarnsOfCoordinatesThatARunArrivesAt) {
@@ -320,7 +320,7 @@ TEST(Simulation, WarnsOfCoordinatesThatARunArrivesAt) {
   scene["duration"] = 10.0;
   scene["material"]["viscosity"] = 0.0;
   Simulation simulation(parse(scene));
-  EXPECT_FALSE(simulation.coordinate_warning());
+  EXPECT_FALSE(survey_of(parse(scene)).coarse_coordinate);
   run(simulation);
   ASSERT_TRUE(simulation.coordinate_warning());
   EXPECT_EQ(simulation.coordinate_warning()->axis, 0);

@@ -203,6 +203,25 @@ TEST(Sleeping, LeavesTheBitsOfABodyThatSlides) {
   EXPECT_EQ(places_of(with, 1), places_of(without, 1));
 }
 
+TEST(Sleeping, LeavesTheBitsOfABodyThatSlidesOnAnother) {
+  Json scene = two_cubes(1.0);
+  scene["bodies"][2] = scene["bodies"][1];  // under the second, which is pressed into it
+  scene["bodies"][2]["translate"][2] = 0.012 - 0.0995;
+  scene = with_velocity(scene, 1, {0.02, 0.01, 0});
+  scene["gravity"] = {0, 0, -9.81};
+  scene["fixed"] = Json::parse(R"([{"box": {"min": [-1, -1, -1], "max": [0.5, 1, 1]}},
+                                   {"box": {"min": [0.5, -1, -1], "max": [2, 1, -0.08]}}])");
+  scene["contact"] = Json::parse(R"({"pressure": 4000, "depth": 0.002, "friction": 2.0, "bodies": "others"})");
+  Simulation with(parse(scene));
+  run(with);
+  EXPECT_EQ(asleep(with), 1u);
+  EXPECT_GT(with.diagnostics().contact->rubbed, 0.0);
+  scene.erase("sleep");
+  Simulation without(parse(scene));
+  run(without);
+  EXPECT_EQ(places_of(with, 1), places_of(without, 1));
+}
+
 // Implicit methods order their unknowns by the whole system, and end within rounding. One of several steps starts anew
 // with a step of a lower order.
 TEST(Sleeping, LeavesTheMotionOfWhatIsAwakeWithEveryIntegrator) {

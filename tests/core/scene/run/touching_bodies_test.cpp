@@ -10,8 +10,9 @@
 #include "core/scene/body/contact_forecast.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/plan/scene_plan.h"
-#include "core/scene/run/scene_warnings.h"
+#include "core/scene/survey/scene_warnings.h"
 #include "core/time/system/energy.h"
+#include "tests/support/bodies/surveys_for_tests.h"
 #include "tests/support/moving_box.h"
 #include "tests/support/run_in_memory.h"
 
@@ -173,12 +174,11 @@ TEST(TouchingBodies, CountTheEnergyOfContactsOnceAndApartFromTheElasticOne) {
   const Simulation simulation(parse(scene));
   const auto& x = simulation.body().vertices().position;
   const Contacts contacts = simulation.body().contacts();
-  const ContactState floor = Contacts(contacts.obstacles).state_at(x),
-                     bodies = Contacts(nullptr, contacts.bodies).state_at(x);
+  const ContactState floor = contacts.only(false).state_at(x), bodies = contacts.only(true).state_at(x);
   const Diagnostics d = simulation.diagnostics();
   EXPECT_GT(floor.energy, 0.0);
   EXPECT_GT(bodies.energy, 0.0);
-  EXPECT_EQ(d.contact->energy, floor.energy + bodies.energy);
+  EXPECT_DOUBLE_EQ(d.contact->energy, floor.energy + bodies.energy);
   EXPECT_EQ(d.contact->contacts, floor.contacts + bodies.contacts);
   EXPECT_EQ(d.contact->deepest, std::max(floor.deepest, bodies.deepest));
   EXPECT_LT(d.elastic, 1e-20);
@@ -319,7 +319,7 @@ TEST(TouchingBodies, AreNamedWhereTheyStartInsideEachOther) {
   EXPECT_EQ(warning->samples, simulation.diagnostics().contact->contacts);
   EXPECT_NEAR(warning->value, 0.005, 1e-15);
   EXPECT_NE(warning->from, warning->into);
-  const std::vector<std::string> said = warnings_of(file, simulation);
+  const std::vector<std::string> said = warnings_of(file, {}, simulation);
   EXPECT_TRUE(some_warning_has(said, "of the boundary are inside bodies at the start, the deepest "));
   EXPECT_TRUE(some_warning_has(said, warning->into == 0 ? " of /bodies/1, 0.005 m inside /bodies/0"
                                                         : " of /bodies/0, 0.005 m inside /bodies/1"));
@@ -339,8 +339,9 @@ TEST(TouchingBodies, AreNamedOnceWhereTheyAreDeeperThanAllowed) {
   EXPECT_GT(warning->value, 0.002);
   EXPECT_EQ(warning->limit, 0.002);
   EXPECT_GT(warning->time, 0.001);
-  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation), warning->into == 0 ? "m inside /bodies/0, deeper than"
-                                                                                 : "m inside /bodies/1, deeper than"));
+  EXPECT_TRUE(some_warning_has(warnings_of(file, {}, simulation), warning->into == 0
+                                                                      ? "m inside /bodies/0, deeper than"
+                                                                      : "m inside /bodies/1, deeper than"));
   scene["contact"]["pressure"] = 40000;
   Simulation stiff(parse(scene));
   run(stiff);
@@ -359,14 +360,14 @@ TEST(TouchingBodies, AreToldWhereTheyMayPassThroughEachOtherInAStep) {
   ASSERT_NE(before, nullptr);
   EXPECT_NEAR(before->value, 0.0142, 1e-12);
   EXPECT_NEAR(before->limit, 0.02 / std::sqrt(2.0), 1e-15);
-  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation),
+  EXPECT_TRUE(some_warning_has(warnings_of(file, {}, simulation),
                                "at the expected speeds a vertex moves 0.0142 m in a step relative to /bodies/1"));
   EXPECT_EQ(warning_of(simulation, ContactWarning::Kind::too_fast), nullptr);
   ASSERT_FALSE(simulation.advance());
   const ContactWarning* now = warning_of(simulation, ContactWarning::Kind::too_fast);
   ASSERT_NE(now, nullptr);
   EXPECT_NEAR(now->value, 0.0142, 1e-12);
-  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation), "moves 0.0142 m in a step relative to others"));
+  EXPECT_TRUE(some_warning_has(warnings_of(file, {}, simulation), "moves 0.0142 m in a step relative to others"));
   scene["bodies"][1]["initial_velocity"] = {0, 0, 70};
   Simulation slower(parse(scene));
   ASSERT_FALSE(slower.advance());
@@ -397,7 +398,7 @@ TEST(TouchingBodies, AreToldWhereNoWayOutIsFound) {
   const ContactWarning* warning = warning_of(simulation, ContactWarning::Kind::out_of_reach);
   ASSERT_NE(warning, nullptr);
   EXPECT_GT(warning->time, 0.001);
-  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation), "so far inside a body that no way out is found"));
+  EXPECT_TRUE(some_warning_has(warnings_of(file, {}, simulation), "so far inside a body that no way out is found"));
 }
 
 // ---- forecasts
@@ -408,7 +409,7 @@ TEST(TouchForecast, HasTheClosedFormsOfAColumn) {
   Json scene = small_on_large();
   scene["duration"] = 1;
   const SceneFile file = parse(scene);
-  const std::vector<TouchForecast> f = forecast_touches(file, make_problem(file));
+  const std::vector<TouchForecast> f = expect_contacts(file, make_problem(file)).bodies;
   ASSERT_EQ(f.size(), 1u);
   EXPECT_EQ(f[0].path, "/contact/bodies");
   EXPECT_EQ(f[0].first, 0u);
@@ -421,7 +422,7 @@ TEST(TouchForecast, HasTheClosedFormsOfAColumn) {
   EXPECT_NEAR(f[0].contact.share, f[0].contact.depth_at_impact / 0.002, 1e-12);
   // no faster than possible in the time that the run lasts
   const SceneFile brief = parse(small_on_large());
-  EXPECT_NEAR(forecast_touches(brief, make_problem(brief))[0].contact.speed, 0.05 * g, 1e-12);
+  EXPECT_NEAR(expect_contacts(brief, make_problem(brief)).bodies[0].contact.speed, 0.05 * g, 1e-12);
 }
 
 TEST(TouchForecast, OfAStackIsTheLoadOfItsLowest) {
@@ -431,11 +432,11 @@ TEST(TouchForecast, OfAStackIsTheLoadOfItsLowest) {
     scene["bodies"].back()["translate"][2] = 0.182 + 0.081 * k;
   }
   const SceneFile stack = parse(scene);
-  EXPECT_NEAR(forecast_touches(stack, make_problem(stack))[0].contact.mass_behind, 1000 * (0.1 + 3 * 0.08), 1e-9);
+  EXPECT_NEAR(expect_contacts(stack, make_problem(stack)).bodies[0].contact.mass_behind, 1000 * (0.1 + 3 * 0.08), 1e-9);
   // side by side nothing is higher than the highest
   for (std::size_t k = 1; k < 5; ++k) scene["bodies"][k]["translate"] = {0.2 * static_cast<double>(k), 0, 0};
   const SceneFile row = parse(scene);
-  EXPECT_NEAR(forecast_touches(row, make_problem(row))[0].contact.mass_behind, 100, 1e-9);
+  EXPECT_NEAR(expect_contacts(row, make_problem(row)).bodies[0].contact.mass_behind, 100, 1e-9);
 }
 
 TEST(TouchForecast, HasARowForEachKeyAndOfItsPairsTheDeepest) {
@@ -443,7 +444,7 @@ TEST(TouchForecast, HasARowForEachKeyAndOfItsPairsTheDeepest) {
   scene["contact"]["bodies"] = "all";
   scene["contact"]["pairs"] = Json::parse(R"([{"of": [0, 0], "depth": 0.004}])");
   const SceneFile file = parse(scene);
-  const std::vector<TouchForecast> f = forecast_touches(file, make_problem(file));
+  const std::vector<TouchForecast> f = expect_contacts(file, make_problem(file)).bodies;
   ASSERT_EQ(f.size(), 2u);
   EXPECT_EQ(f[0].path, "/contact/pairs/0");
   EXPECT_EQ(f[0].law.depth, 0.004);
@@ -461,13 +462,13 @@ TEST(TouchForecast, CountsBothSpeedsAndTheFallOfWhatIsCut) {
   scene["bodies"][0]["initial_velocity"] = {0, 3, 0};
   scene["bodies"][1]["initial_velocity"] = {0, 0, -4};
   const SceneFile two = parse(scene);
-  EXPECT_EQ(forecast_touches(two, make_problem(two))[0].contact.speed, 7.0);
+  EXPECT_EQ(expect_contacts(two, make_problem(two)).bodies[0].contact.speed, 7.0);
   Json cut = cut_in_two();
   cut["gravity"] = {0, 0, -g};
   cut["initial_velocity"] = {0, 0, 0};
   cut["duration"] = 1;
   const SceneFile one = parse(cut);
-  EXPECT_NEAR(forecast_touches(one, make_problem(one))[0].contact.speed, std::sqrt(2 * g * 0.1), 1e-12);
+  EXPECT_NEAR(expect_contacts(one, make_problem(one)).bodies[0].contact.speed, std::sqrt(2 * g * 0.1), 1e-12);
 }
 
 TEST(TouchingBodies, AreInThePlanWithWhatTheyCostAndTheStepTheyAllow) {
@@ -479,9 +480,9 @@ TEST(TouchingBodies, AreInThePlanWithWhatTheyCostAndTheStepTheyAllow) {
   EXPECT_EQ(item->what, "148 places of the surface, each held against 96 tetrahedra along the surface");
   EXPECT_EQ(item->why, "/contact/bodies");
   ASSERT_TRUE(plan.contact);
-  EXPECT_TRUE(plan.contact->obstacles.empty());
-  ASSERT_EQ(plan.contact->touches.size(), 1u);
-  EXPECT_EQ(plan.contact->share, plan.contact->touches[0].contact.share);
+  EXPECT_TRUE(plan.contact->expected.obstacles.empty());
+  ASSERT_EQ(plan.contact->expected.bodies.size(), 1u);
+  EXPECT_EQ(plan.contact->expected.share(), plan.contact->expected.bodies[0].contact.share);
   EXPECT_GT(plan.contact->contact_rate, 0.0);
   EXPECT_LT(plan.contact->stable_step, plan.contact->body_step);
   const Simulation simulation(file);
@@ -496,8 +497,7 @@ TEST(TouchingBodies, LimitTheStepByTheirStiffness) {
   scene["contact"]["pressure"] = 4e7;
   scene["step"] = 0.001;
   const SceneFile file = parse(scene);
-  EXPECT_TRUE(
-      some_warning_has(warnings_of(file, Simulation(file)), "is stable where contacts are as deep as is expected"));
+  EXPECT_TRUE(some_warning_has(warnings_before_run(file), "is stable where contacts are as deep as is expected"));
 }
 
 /// A box that falls on a body that is held, 5 mm thick, through which its law lets it come.
@@ -522,7 +522,7 @@ TEST(TouchingBodies, AreToldBeforeTheRunThatOneIsTooThin) {
   EXPECT_EQ(warning->into, 0u);
   EXPECT_NEAR(warning->limit, 0.0025, 1e-12);
   EXPECT_GT(warning->value, 0.01);
-  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation), "/bodies/0 may be 0.0"));
+  EXPECT_TRUE(some_warning_has(warnings_of(file, {}, simulation), "/bodies/0 may be 0.0"));
   EXPECT_EQ(warning_of(Simulation(parse(onto_a_thin_body(1e8))), ContactWarning::Kind::too_thin), nullptr);
 }
 
@@ -536,7 +536,7 @@ TEST(TouchingBodies, AreToldWhenOneComesThroughAnother) {
   EXPECT_EQ(warning->into, 0u);
   EXPECT_GT(warning->value, 0.002);
   EXPECT_LE(warning->value, 0.0025 + 1e-12);
-  EXPECT_TRUE(some_warning_has(warnings_of(file, simulation), " comes through /bodies/0: 0.002"));
+  EXPECT_TRUE(some_warning_has(warnings_of(file, {}, simulation), " comes through /bodies/0: 0.002"));
   Simulation held(parse(onto_a_thin_body(1e6)));
   run(held);
   EXPECT_EQ(warning_of(held, ContactWarning::Kind::comes_through), nullptr);

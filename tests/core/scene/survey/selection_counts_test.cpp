@@ -6,6 +6,7 @@
 
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/plan/scene_plan.h"
+#include "tests/support/bodies/surveys_for_tests.h"
 #include "tests/support/moving_box.h"
 
 namespace dartboard::selection_counts_test {
@@ -57,9 +58,9 @@ TEST(SelectionCounts, OfCutsAreTheFacesThatTheBodyFindsAtRest) {
     {"at": 0.005, "dissociate": {"plane": {"point": [0.5, 0, 0], "normal": [1, 0, 0]}}},
     {"at": 0.005, "dissociate": {"plane": {"point": [0.5, 0, 0], "normal": [1, 0, 0]},
                                  "within": {"box": {"min": [0, 0, 0], "max": [1, 0.04, 1]}}}}])");
-  const Simulation simulation(parse(json));
   Lines said;
-  for (const SelectionCount& count : simulation.selections()) said.push_back(to_string(count));
+  const SceneSurvey survey = survey_of(parse(json));
+  for (const SelectionCount& count : survey.selections) said.push_back(to_string(count));
   // inside each cube 6 faces between its six tetrahedra, between two cubes 2
   EXPECT_EQ(said, (Lines{"/events/0/dissociate: 2 of 78 faces between cells",
                          "/events/1/dissociate: 1 of 78 faces between cells"}));
@@ -91,10 +92,7 @@ Json with_bounded_cut(const char* within) {
   json["events"] = Json::array({{{"at", 0.005}, {"dissociate", cut}}});
   return json;
 }
-SelectionCount of_cut(const Json& json) {
-  const Simulation simulation(parse(json));
-  return simulation.selections().back();
-}
+SelectionCount of_cut(const Json& json) { return survey_of(parse(json)).selections.back(); }
 
 // Within the box there are also the faces inside of cubes, with centres nearer to its border than the two of the cut.
 TEST(SelectionCounts, NameTheFacesOfACutThatItsBoundsMissByLessThanTenThicknesses) {

@@ -1,11 +1,10 @@
-#include "core/scene/run/scene_warnings.h"
+#include "core/scene/survey/scene_warnings.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "core/scene/run/free_shapes.h"
 #include "core/time/integrators.h"
 #include "core/time/watch/preflight.h"
 
@@ -29,12 +28,13 @@ std::string why_idle(const std::string& path, const SceneFile& scene, const Simu
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const SceneFile& scene, const Simulation& simulation) {
+std::vector<std::string> warnings_of(const SceneFile& scene, const SceneSurvey& survey, const Simulation& simulation) {
   std::vector<std::string> said;
   if (const auto& warning = simulation.step_warning())
     said.push_back(to_string(*warning, simulation.step(), scene.integrator) + what_to_do_about(*warning, scene));
-  if (const auto& coarse = simulation.coordinate_warning()) said.push_back(to_string(*coarse) + " (/body/translate)");
-  for (const StepResult& warning : simulation.warnings()) said.push_back(explained(warning));
+  const auto& coarse = survey.coarse_coordinate ? survey.coarse_coordinate : simulation.coordinate_warning();
+  if (coarse) said.push_back(to_string(*coarse) + " (/body/translate)");
+  for (const StepResult& warning : survey.warnings) said.push_back(explained(warning));
   std::vector<std::string> obstacles, bodies;
   for (const BodySource& one : scene.bodies()) bodies.push_back(one.path);
   for (const SceneObstacle& one : scene.obstacles) obstacles.push_back(one.path);
@@ -42,11 +42,11 @@ std::vector<std::string> warnings_of(const SceneFile& scene, const Simulation& s
     for (std::uint32_t& vertex : warning.nodes) vertex = simulation.file_number(vertex);
     said.push_back(to_string(warning, obstacles, bodies));
   }
-  for (const StiffBody& body : simulation.stiff_bodies()) said.push_back(to_string(body));
-  for (const SelectionCount& count : simulation.selections())
+  for (const StiffBody& body : survey.stiff_bodies) said.push_back(to_string(body));
+  for (const Sag& sag : survey.sags) said.push_back(to_string(sag));
+  for (const SelectionCount& count : survey.selections)
     if (count.just_outside > 0) said.push_back(near_miss(count));
-  const std::string shapes = free_shapes_of(simulation.cells_of_springs(), scene.diagonals);
-  if (!shapes.empty()) said.push_back(shapes);
+  if (!survey.free_shapes.empty()) said.push_back(survey.free_shapes);
   // an event that was due at the start may still have an effect
   if (simulation.steps_done() == 0 && simulation.step_count() > 0) return said;
   for (const std::string& path : simulation.idle_events())

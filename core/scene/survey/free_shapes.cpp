@@ -1,4 +1,4 @@
-#include "core/scene/run/free_shapes.h"
+#include "core/scene/survey/free_shapes.h"
 
 #include <fmt/format.h>
 

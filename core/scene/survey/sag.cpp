@@ -1,0 +1,59 @@
+#include "core/scene/survey/sag.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+namespace dartboard {
+namespace {
+
+bool is_held(const Problem& problem, std::size_t first, std::size_t end) {
+  const auto is_of_body = [first, end](std::size_t point) { return point >= first && point < end; };
+  return std::ranges::any_of(problem.fixed, is_of_body) ||
+         std::ranges::any_of(problem.held_axes, is_of_body, &HeldPoint::point);
+}
+
+double extent_along(const Eigen::Vector3d& axis, const Mesh& mesh, std::size_t first, std::size_t end) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t p = first; p < end; ++p) {
+    low = std::min(low, axis.dot(mesh.points[p]));
+    high = std::max(high, axis.dot(mesh.points[p]));
+  }
+  return high - low;
+}
+
+}  // namespace
+
+std::string to_string(const Sag& sag) {
+  return fmt::format(
+      "{}: its weight is expected to compress or stretch it by {:.2g} times its height of {:.3g} m; 'young' is in pascals "
+      "(N/m for a surface)",
+      sag.path, sag.strain, sag.height);
+}
+
+std::vector<Sag> find_sags(const SceneFile& scene, const Problem& problem) {
+  std::vector<Sag> found;
+  const double gravity = problem.surroundings.gravity.norm();
+  if (!(gravity > 0.0)) return found;
+  const CellMaterials materials = problem.cell_materials();
+  const auto bodies = scene.bodies();
+  const BodyRanges& ranges = problem.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const bool has_support = scene.has_contact() || !scene.attachments.empty();
+    if (!has_support && !is_held(problem, ranges.point[b], ranges.point[b + 1])) continue;
+    double softness = 0.0;
+    for (std::size_t c = ranges.cell[b]; c < ranges.cell[b + 1]; ++c)
+      if (materials[c].young > 0.0) softness += materials[c].density / materials[c].young;
+    if (softness == 0.0) continue;
+    softness /= static_cast<double>(ranges.cell[b + 1] - ranges.cell[b]);
+    const double height =
+        extent_along(problem.surroundings.gravity / gravity, problem.mesh, ranges.point[b], ranges.point[b + 1]);
+    const double strain = softness * gravity * height / 2.0;
+    if (strain > 1.0) found.push_back({bodies[b].path, height, strain});
+  }
+  return found;
+}
+
+}  // namespace dartboard
