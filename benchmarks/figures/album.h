@@ -1,34 +1,36 @@
 #pragma once
-// The few pictures of a run that are kept.
+// A run as pictures show it, at evenly spaced times.
 
 #include <cstdint>
 #include <vector>
 
-#include "benchmarks/figures/body_picture.h"
+#include "benchmarks/figures/body_facets.h"
 #include "core/scene/run/scene_run.h"
 
 namespace dartboard {
 
-/// The body at the start, after one and two thirds of the run, and at its end.
+/// The bodies as they are seen at the start and at some evenly spaced times to the end; what is inside is not kept.
 class Album : public RunWatcher {
  public:
-  Album(const Simulation& simulation, std::uint64_t steps) : steps_(steps) { take(simulation); }
+  /// `pictures` after the first, or one of each step if there are fewer.
+  Album(const Simulation& simulation, std::uint64_t steps, std::uint64_t pictures, const Look& look);
 
-  void stepped(const Simulation& simulation) override {
-    const std::uint64_t n = simulation.steps_done();
-    if (n == steps_ / 3 || n == 2 * steps_ / 3 || n == steps_) take(simulation);
-  }
+  void stepped(const Simulation& simulation) override;
   /// The last good state of a run that ended before its time, and none after it.
-  void ended(const Simulation& simulation) {
-    while (panels_.size() > 1 && panels_.back().time > simulation.time()) panels_.pop_back();
-    if (panels_.back().time < simulation.time()) take(simulation);
-  }
-  const std::vector<Frame>& panels() const { return panels_; }
+  void ended(const Simulation& simulation);
+  const std::vector<BodyPanel>& panels() const { return panels_; }
 
  private:
-  void take(const Simulation& simulation) { panels_.push_back(simulation.frame({})); }
-  std::uint64_t steps_;
-  std::vector<Frame> panels_;
+  Frame frame_of(const Simulation& simulation) const { return simulation.frame(fields_); }
+  void take(const Simulation& simulation) { panels_.push_back(facets_.of(frame_of(simulation))); }
+
+  std::uint64_t steps_, pictures_;
+  FrameFields fields_;
+  BodyFacets facets_;
+  std::vector<BodyPanel> panels_;
 };
+
+/// Of a scene, so that what its gravity pulls down is below.
+Look look_of(const SceneFile& scene, ColourBy colour = ColourBy::component);
 
 }  // namespace dartboard

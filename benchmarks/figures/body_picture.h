@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of a body as it moves: the effect of a scene, seen from the side, drawn by gnuplot.
+// Pictures of bodies as they move: the effect of a scene, seen from the side, drawn by gnuplot.
 
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -8,60 +8,66 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/body/frame.h"
+#include "benchmarks/figures/body_panel.h"
 
 namespace dartboard {
 
-/// A body at a few times, side by side.
+/// Bodies at a few times, side by side.
 struct BodyStrip {
-  std::vector<Frame> panels;
+  std::vector<BodyPanel> panels;
+  Look look;
   std::string title;
 };
 
-/// A facet of the surface as it is drawn: corners in the plane of the picture, and its colour.
-struct DrawnFacet {
-  std::vector<Eigen::Vector2d> corners;  // [m]; two of them: a line
-  double depth = 0.0;                    // of the middle of the facet, towards the viewer
-  std::uint32_t colour = 0;              // 0xrrggbb
-};
-
-/// The bodies turned so that `up` is z, which pictures show upwards; unchanged if `up` is z already, or zero.
-std::vector<Frame> upright(std::span<const Frame> panels, const Eigen::Vector3d& up);
-
-/// The visible facets of a body, from the front, a little from the right and above, z upwards: its boundary, the
-/// farthest facet first. Each component has its own colour; facets that were inside the body of `first` have another.
-std::vector<DrawnFacet> drawn_facets(const Frame& panel, const Frame& first);
-
-/// The extent of a body in the plane of the picture [m]; empty for an empty body.
-Eigen::AlignedBox2d seen_box(const Frame& panel);
-
-/// The properties that pictures of one body at several times have in common.
+/// The properties that pictures of the same bodies at several times have in common.
 struct PictureArea {
-  Eigen::AlignedBox2d all;     // [m] the extent of the body over all times
+  Eigen::AlignedBox2d all;     // [m] the extent of bodies and obstacles over all times
   Eigen::Vector2d size{0, 0};  // [m] of each picture
-  bool follows = false;        // the body moves far beyond its size, and each picture has it in the middle
+  bool follows = false;        // the bodies move far beyond their size, and each picture has them in the middle
 
   Eigen::Vector2d centre_of(const Eigen::AlignedBox2d& box) const {
     return follows && !box.isEmpty() ? box.center() : all.center();
   }
 };
-/// A body that looks flat from this side still gets some room: `thinnest` of the larger extent.
-PictureArea picture_area(std::span<const Eigen::AlignedBox2d> boxes, double thinnest);
+/// Panels with the obstacles, in one scale of colours, each in the order of depth.
+struct Drawing {
+  std::vector<BodyPanel> panels;
+  PictureArea area;
+  double largest = 0.0;  // of the values by which facets are coloured, from 0
+};
+/// Bodies that look flat from this side still get some room: `thinnest` of the larger extent.
+Drawing drawing_of(std::span<const BodyPanel> panels, const Look& look, double thinnest);
 
 /// Facets as gnuplot's polygons, each with a darker rim, moved by `shift` [m], for so many pixels per metre.
 std::string polygons_of(std::span<const DrawnFacet> facets, const Eigen::Vector2d& shift, double pixels);
 
+/// The area of a picture in metres, as large as its pixels are.
+struct Canvas {
+  double pixels = 1.0;  // per metre
+  int width = 0, height = 0;
+  Eigen::Vector2d low{0, 0};  // [m] the lower left corner
+
+  /// The place [m] so many pixels to the right of the lower left corner and above it.
+  Eigen::Vector2d at(double right, double up) const { return low + Eigen::Vector2d(right, up) / pixels; }
+};
+/// Commands that make gnuplot's axes that area, with a title, and below it a scale bar and the meanings of colours.
+std::string canvas_commands(const Canvas& canvas, const Drawing& drawing, const Look& look, const std::string& title,
+                            double font);
+/// [pixels] The height of what is below.
+double footer_height(const Drawing& drawing, const Look& look, double pixels, int width);
+
 /// Draw bodies side by side at one scale, each with its time; `name`.png, `name`.svg, and the data and script they are
 /// drawn from.
 ///
-/// Where the body moves far beyond its size, each panel follows it.
+/// Where the bodies move far beyond their size, each panel follows them.
 /// returns a sentence on what went wrong, as `draw` does
 /// throws  IoError when the files cannot be written
-std::string draw_bodies(std::span<const Frame> panels, const std::string& title, const std::filesystem::path& folder,
-                        const std::string& name, const std::string& gnuplot = "gnuplot");
+std::string draw_bodies(std::span<const BodyPanel> panels, const Look& look, const std::string& title,
+                        const std::filesystem::path& folder, const std::string& name,
+                        const std::string& gnuplot = "gnuplot");
 
 inline std::string draw(const BodyStrip& strip, const std::filesystem::path& folder, const std::string& name) {
-  return draw_bodies(strip.panels, strip.title, folder, name);
+  return draw_bodies(strip.panels, strip.look, strip.title, folder, name);
 }
 
 }  // namespace dartboard

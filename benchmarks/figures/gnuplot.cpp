@@ -28,21 +28,9 @@ bool is_in_font(std::uint32_t code) {
   return code <= 0x52f || (code >= 0x1e00 && code <= 0x1fff) || (code >= 0x2000 && code <= 0x22ff);
 }
 
-/// A line that is drawn, with "?" for each character that the font lacks: the PNG and the GIF would show a black box as
-/// high as the picture. The SVG has it too, since both pictures are drawn from one script and one file of data.
-std::string drawn_text(std::string_view text) {
-  const std::string line = terminal_text(text);  // which is UTF-8 and has no control characters
-  std::string out;
-  for (std::size_t at = 0; at < line.size();) {
-    const auto first = static_cast<unsigned char>(line[at]);
-    const std::size_t bytes = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
-    std::uint32_t code = bytes == 1 ? first : first & (0x7fu >> bytes);
-    for (std::size_t k = 1; k < bytes; ++k) code = code << 6 | (static_cast<unsigned char>(line[at + k]) & 0x3fu);
-    out += is_in_font(code) ? line.substr(at, bytes) : "?";
-    at += bytes;
-  }
-  return out;
-}
+/// A line that is drawn: the PNG and the GIF would show a black box as high as the picture for a character that the
+/// font lacks. The SVG has "?" too, since both pictures are drawn from one script and one file of data.
+std::string drawn_text(std::string_view text) { return font_text(text, is_in_font); }
 
 /// Length of a text in UTF-8.
 std::size_t letters(const std::string& text) {

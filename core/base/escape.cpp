@@ -82,6 +82,18 @@ bool markdown_acts(char before, char c, char after) {
 }  // namespace
 
 std::string terminal_text(std::string_view text) { return visible(text, false); }
+
+std::string font_text(std::string_view text, bool (*has)(std::uint32_t code)) {
+  const std::string line = terminal_text(text);
+  std::string out;
+  for (std::size_t at = 0; at < line.size();) {
+    const auto [code, bytes] = letter_at(line, at);
+    out += has(code) ? line.substr(at, bytes) : "?";
+    at += bytes;
+  }
+  return out;
+}
+
 std::string terminal_lines(std::string_view text) { return visible(text, true); }
 
 std::string gnuplot_string(std::string_view text) {
@@ -94,7 +106,7 @@ std::string gnuplot_string(std::string_view text) {
 }
 
 std::string shell_word(std::string_view text) {
-  const std::string line = terminal_text(text);
+  std::string line = terminal_text(text);
   const auto plain = [](char c) {
     return is_word(c) || std::string_view("_./:=@%+,-").find(c) != std::string_view::npos;
   };

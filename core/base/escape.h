@@ -3,6 +3,7 @@
 // each language that the program writes.
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,9 @@ namespace dartboard {
 /// One line for a terminal. Line breaks and other control characters, characters that reverse the direction of writing,
 /// and bytes that are not UTF-8 are spelt out: "\n", "\x1b", "\u{202e}". The functions below begin with it.
 std::string terminal_text(std::string_view text);
+
+/// The same line with "?" for each character that a font lacks.
+std::string font_text(std::string_view text, bool (*has)(std::uint32_t code));
 
 /// Several lines for a terminal: line breaks stay.
 std::string terminal_lines(std::string_view text);

@@ -143,6 +143,12 @@ AttachedVertex attached(const Attachment& attachment, std::uint32_t vertex) {
           .per_mass = attachment.per_mass};
 }
 
+Vector3d place_of(const AttachedVertex& spring, std::span<const Vector3d> x) {
+  Vector3d place = spring.count == 1 ? spring.place : Vector3d(0, 0, 0);
+  for (std::size_t a = 1; a < spring.count; ++a) place += spring.weight[a - 1] * x[spring.nodes[a]];
+  return place;
+}
+
 std::unique_ptr<ForceTerm> make_attachments(const std::vector<AttachedVertex>& rows, const std::vector<double>& mass) {
   return std::make_unique<AttachmentTerm>(rows, mass);
 }

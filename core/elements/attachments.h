@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/forces/force_term.h"
@@ -41,6 +42,9 @@ struct AttachedVertex {
     archive(count, nodes, weight, place, per_mass);
   }
 };
+
+/// [m] The place that the vertex of a spring is attached to, with the vertices at x.
+Eigen::Vector3d place_of(const AttachedVertex& spring, std::span<const Eigen::Vector3d> x);
 
 /// The spring of an attachment of a vertex; the vertices at its corners follow in the same order.
 AttachedVertex attached(const Attachment& attachment, std::uint32_t vertex);

@@ -6,12 +6,14 @@
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "core/base/folder_claim.h"
 #include "core/plain/error.h"
+#include "core/scene/output/scene_output.h"
 #include "core/scene/restart/checkpoint.h"
 
 namespace dartboard {
@@ -21,10 +23,9 @@ namespace {
 /// Is this the name of a file that `simulate` writes?
 bool is_of_a_run(const fs::path& file) {
   const std::string name = file.filename().string(), extension = file.extension().string();
-  constexpr std::array whole{"manifest.json", "summary.json", "frames.pvd", "diagnostics.csv", "probes.csv"};
   constexpr std::array drawn{".png", ".svg", ".gif", ".gnuplot", ".dat"};
-  if (std::ranges::find(whole, name) != whole.end() || name == checkpoint_name) return true;
-  if (name.starts_with("frame_")) return extension == ".vtu";
+  if (name == "manifest.json" || name == "summary.json" || name == checkpoint_name || SceneOutput::writes(name))
+    return true;
   const bool is_drawn = name.starts_with("picture") || name.starts_with("film");
   return is_drawn && std::ranges::find(drawn, extension) != drawn.end();
 }
@@ -37,7 +38,7 @@ bool is_run_folder(const fs::path& folder) {
   return manifest.is_object() && manifest.contains("dartboard");
 }
 
-void empty_run_folder(const fs::path& folder) {
+void empty_run_folder(const fs::path& folder, std::span<const fs::path> inputs) {
   std::error_code error;
   if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return;
   const auto refuse = [&folder](const std::string& what) {
@@ -50,6 +51,9 @@ void empty_run_folder(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (!entry.is_regular_file() || entry.is_symlink() || !is_of_a_run(entry.path()))
       refuse(fmt::format("has '{}'", entry.path().filename().string()));
+    for (const fs::path& input : inputs)
+      if (fs::equivalent(input, entry.path(), error))
+        refuse(fmt::format("has '{}', which the new run reads", entry.path().filename().string()));
     files.push_back(entry.path());
   }
   // the manifest goes last: what is left of an interrupted removal is still a run

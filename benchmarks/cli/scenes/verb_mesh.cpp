@@ -10,6 +10,7 @@
 #include <span>
 
 #include "benchmarks/cli/scenes/scene_verbs.h"
+#include "benchmarks/figures/body_facets.h"
 #include "benchmarks/figures/body_picture.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/tell.h"
@@ -250,8 +251,9 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
       frame.component.assign(loaded.mesh.cell_count(), 0);
       frame.mesh_point.resize(loaded.mesh.points.size());
       std::iota(frame.mesh_point.begin(), frame.mesh_point.end(), 0);
+      const BodyPanel panel = BodyFacets({}, frame).of(frame);
       picture_missing(outcome,
-                      draw_bodies(std::span(&frame, 1), std::filesystem::path(options->file).filename().string(),
+                      draw_bodies(std::span(&panel, 1), {}, std::filesystem::path(options->file).filename().string(),
                                   options->out, "mesh"));
     }
     if (options->json) {

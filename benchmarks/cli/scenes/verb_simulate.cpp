@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "benchmarks/cli/scenes/scene_verbs.h"
 #include "benchmarks/cli/scenes/simulate_report.h"
 #include "benchmarks/figures/album.h"
+#include "benchmarks/figures/body_picture.h"
 #include "benchmarks/figures/film.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/harness/json_text.h"
@@ -36,6 +38,7 @@ namespace {
 
 struct SimulateOptions {
   std::string scene, out, continued;
+  ColourBy colour = ColourBy::component;
   bool json = false, quick = false, picture = false, film = false, replace = false;
   std::optional<std::uint64_t> steps, seed;
   unsigned threads = 0;
@@ -45,6 +48,11 @@ struct SimulateOptions {
     return quick ? std::optional<std::uint64_t>(100) : std::nullopt;
   }
 };
+
+const std::map<std::string, ColourBy> colours_by_name{{"component", ColourBy::component},
+                                                      {"material", ColourBy::material},
+                                                      {"speed", ColourBy::speed},
+                                                      {"stress", ColourBy::stress}};
 
 /// Draws pictures, reports progress, and ends the run on a signal.
 class Watcher : public RunWatcher {
@@ -94,14 +102,20 @@ nlohmann::json continued_manifest(const std::filesystem::path& folder, const Out
   return manifest;
 }
 
+/// The scene file, and the meshes that it names.
+std::vector<std::filesystem::path> inputs_of(const SceneFile& scene, const SimulateOptions& options) {
+  std::vector<std::filesystem::path> files{scene_file(options.scene)};
+  for (const BodySource& body : scene.bodies())
+    if (const auto* mesh = std::get_if<std::filesystem::path>(&body.mesh)) files.push_back(*mesh);
+  return files;
+}
+
 /// The inputs of the run, written next to its results.
 nlohmann::json manifest_of(const SceneFile& scene, const SimulateOptions& options, const Outcome& outcome) {
   RunFacts facts;
   facts.command_line = {outcome.command_line};
   if (options.seed) facts.seeds = {{"added to the seeds of random selections", *options.seed}};
-  facts.input_files = {scene_file(options.scene)};
-  for (const BodySource& body : scene.bodies())
-    if (const auto* mesh = std::get_if<std::filesystem::path>(&body.mesh)) facts.input_files.push_back(*mesh);
+  facts.input_files = inputs_of(scene, options);
   return begin_manifest(facts);
 }
 
@@ -112,11 +126,11 @@ void simulate(const SimulateOptions& options, const StepChoice& choose_step, Out
   const Simulation& simulation = run.simulation();
   const std::string opening = opening_of(scene, run.survey(), simulation, step_in_words(simulation, scene));
   // in a continued run, too, pictures begin at its start, where nothing has been cut
-  std::optional<Album> album;
-  std::optional<Film> film;
+  const Look look = look_of(scene, options.colour);
+  std::optional<Album> picture, film;
   std::vector<RunWatcher*> pictures;
-  if (options.picture) pictures.push_back(&album.emplace(simulation, run.last_step()));
-  if (options.film) pictures.push_back(&film.emplace(simulation, run.last_step(), -scene.gravity));
+  if (options.picture) pictures.push_back(&picture.emplace(simulation, run.last_step(), 3, look));
+  if (options.film) pictures.push_back(&film.emplace(simulation, run.last_step(), most_film_pictures, look));
   // the folder comes last: a wrong scene leaves nothing behind
   nlohmann::json manifest;
   if (!options.continued.empty()) {
@@ -125,7 +139,7 @@ void simulate(const SimulateOptions& options, const StepChoice& choose_step, Out
     manifest = manifest_of(scene, options, outcome);
     if (run.settled()) manifest["settled"] = *run.settled();
   }
-  if (options.replace) empty_run_folder(options.out);
+  if (options.replace) empty_run_folder(options.out, inputs_of(scene, options));
   run.open();
   const auto write_manifest = [&] {
     if (!run.folder().empty()) write_whole(run.folder() / "manifest.json", json_text(manifest, 2) + "\n");
@@ -169,17 +183,17 @@ void simulate(const SimulateOptions& options, const StepChoice& choose_step, Out
   outcome.exit_code = run.result().interrupted ? Interrupt::exit_code() : run.holds() ? exit_agrees : exit_disagrees;
   // pictures of an earlier part of the run stay
   const std::string from_step = run.first_step() > 0 ? fmt::format("_from_step_{}", run.first_step()) : "";
-  if (album) {
-    album->ended(simulation);
+  if (picture) {
+    picture->ended(simulation);
     const std::string name = "picture" + from_step;
-    const std::string trouble = draw_bodies(upright(album->panels(), -scene.gravity), scene.name, run.folder(), name);
+    const std::string trouble = draw_bodies(picture->panels(), look, scene.name, run.folder(), name);
     report.picture = trouble.empty() ? fmt::format("{0}.png and {0}.svg drawn there.", name) : trouble;
     picture_missing(outcome, trouble);
   }
   if (film) {
     film->ended(simulation);
     const std::string name = "film" + from_step;
-    const std::string trouble = draw_film(film->frames(), scene.name, run.folder(), name);
+    const std::string trouble = draw_film(film->panels(), look, scene.name, run.folder(), name);
     report.picture += fmt::format("{}{}", report.picture.empty() ? "" : "\n",
                                   trouble.empty() ? fmt::format("{}.gif drawn there.", name) : trouble);
     picture_missing(outcome, trouble);
@@ -219,6 +233,11 @@ void add_simulate(CLI::App& app, Outcome& outcome, StepChoice choose_step) {
       ->needs(out);
   verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder");
   verb->add_flag("--film", options->film, "draw the body as it moves, an animated GIF, into that folder");
+  auto* colour =
+      verb->add_option("--colour", options->colour,
+                       "colour the bodies of pictures and films by component, material, speed or (von Mises) stress "
+                       "[component]");
+  colour->transform(CLI::CheckedTransformer(colours_by_name).description(""));
   verb->add_option("--steps", options->steps, "stop after so many steps");
   verb->add_option(
           "--threads", options->threads,
@@ -228,11 +247,12 @@ void add_simulate(CLI::App& app, Outcome& outcome, StepChoice choose_step) {
   verb->add_flag("--quick", options->quick, "stop after 100 steps");
   verb->add_option("--seed", options->seed, "added to the seeds of random selections [0]")->excludes(continued);
   verb->add_flag("--json", options->json, "print JSON");
-  verb->callback([options, choose_step = std::move(choose_step), &outcome] {
+  verb->callback([options, colour, choose_step = std::move(choose_step), &outcome] {
     if (options->scene.empty() && options->continued.empty()) throw CLI::RequiredError("SCENE");
     if (options->out.empty() && options->continued.empty())
       for (const auto& [asked, name] : {std::pair(options->picture, "--picture"), {options->film, "--film"}})
         if (asked) throw CLI::RequiresError(name, "--out or --continue");
+    if (*colour && !options->picture && !options->film) throw CLI::RequiresError("--colour", "--picture or --film");
     if (!options->replace && !options->out.empty() && is_run_folder(options->out))
       throw IoError(fmt::format(
           "{}: holds an earlier run; expected a new or empty folder for the results, or --replace", options->out));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "benchmarks/figures/album.h"
+#include "benchmarks/figures/body_picture.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/studies/scenes/gallery_report.h"
 #include "core/base/escape.h"
@@ -22,7 +23,8 @@ std::pair<ShownScene, BodyStrip> show(const std::filesystem::path& file) {
   shown.file = file.filename().string();
   settle_accuracy(shown.scene, thread_cpu_ns);
   Simulation simulation(shown.scene);
-  Album album(simulation, simulation.step_count());
+  const Look look = look_of(shown.scene);
+  Album album(simulation, simulation.step_count(), 3, look);
   const auto start = thread_cpu_ns();
   const RunResult result = run_scene(simulation, shown.scene.output, album);
   shown.cpu_s = static_cast<double>(thread_cpu_ns() - start) * 1e-9;
@@ -37,7 +39,7 @@ std::pair<ShownScene, BodyStrip> show(const std::filesystem::path& file) {
     if (row.holds) ++shown.held;
   }
   album.ended(simulation);
-  return {shown, {upright(album.panels(), -shown.scene.gravity), shown.scene.name}};
+  return {shown, {album.panels(), look, shown.scene.name}};
 }
 
 }  // namespace

@@ -162,7 +162,7 @@ void find_remedies(StepExplanation& e, const Scheme& scheme, const Horizon& hori
     remedy("remove the " + springs, scale_springs(shown, 0.0));
   }
   remedy("double the mass of the first vertex", [&](SpringColumns& c) { double_mass(c, e.vertices.front().number); });
-  remedy(fmt::format("double the mass of the {} {}", e.vertices.size(), e.vertices.size() == 1 ? "vertex" : "vertices"),
+  remedy(fmt::format("double the mass of the {}", counted(e.vertices.size(), "vertex", "vertices")),
          [&](SpringColumns& c) {
            for (const StepShare& v : e.vertices) double_mass(c, v.number);
          });

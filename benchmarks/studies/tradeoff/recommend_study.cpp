@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/studies/tradeoff/recommend_report.h"
+#include "core/scene/recorded_run.h"
 #include "validation/scenes/scene_of_file.h"
 
 namespace dartboard {
@@ -19,6 +22,16 @@ struct Advice {
   Recommendation recommendation;
   std::optional<RecommendedScene> scene;
 };
+
+/// Says what `simulate` warns of before the first step, without the step, which is to be chosen.
+/// throws  InputError for a scene that `simulate` refuses
+void say_warnings(const std::string& file, StudyLog& log) {
+  SceneFile scene = read_scene(std::filesystem::path(file));
+  if (scene.accuracy) return;  // it has no step yet
+  const RecordedRun run(std::move(scene));
+  const std::size_t of_the_step = run.simulation().step_warning() ? 1 : 0;  // comes first
+  for (const std::string& warning : std::span(run.warnings()).subspan(of_the_step)) log.say("warning: " + warning);
+}
 
 std::vector<Advice> advise(const TradeoffScene& scene, bool has_file, const RecommendPlan& plan, StudyLog& log,
                            Report& report) {
@@ -101,6 +114,7 @@ Report recommend_study(const RecommendPlan& plan, StudyLog& log) {
   Report report{.numbers = nlohmann::ordered_json::array()};
   std::vector<FollowedPick> followed;
   for (const std::string& name : plan.scenes) {
+    if (name.ends_with(".json")) say_warnings(name, log);
     const TradeoffScene scene = find_scene(name, source_folder() / "benchmarks" / "meshes");
     for (const std::string& omission : scene.omissions) log.say("In the pilots: " + omission);
     const std::vector<Advice> all = advise(scene, name.ends_with(".json"), plan, log, report);

@@ -5,22 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/plain/extent.h"
 #include "core/scene/file/selections/selection.h"
 
 namespace dartboard {
 namespace {
 
 using Eigen::Vector3d;
-
-/// From the lowest to the highest of the points along a direction.
-double extent(std::span<const Vector3d> points, const Vector3d& along) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Vector3d& x : points) {
-    low = std::min(low, x.dot(along));
-    high = std::max(high, x.dot(along));
-  }
-  return points.empty() ? 0.0 : high - low;
-}
 
 /// What is behind the boundary of the bodies.
 struct Behind {
@@ -106,10 +97,10 @@ class Forecaster {
         velocities_.push_back(sign * drive.largest_speed_of(x) * Vector3d::Unit(axis));
   }
   double height(const SceneObstacle& one) const {
-    if (const auto* plane = std::get_if<HalfSpace>(&one.obstacle.shape)) return extent(points_, plane->normal);
-    if (gravity_ > 0.0) return extent(points_, up_);
+    if (const auto* plane = std::get_if<HalfSpace>(&one.obstacle.shape)) return extent_along(plane->normal, points_);
+    if (gravity_ > 0.0) return extent_along(up_, points_);
     double longest = 0.0;
-    for (int k = 0; k < 3; ++k) longest = std::max(longest, extent(points_, Vector3d::Unit(k)));
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, extent_along(Vector3d::Unit(k), points_));
     return longest;
   }
 

@@ -58,6 +58,8 @@ struct Frame {
   std::vector<FramePair> contact_pairs;               // with obstacles, then with bodies
   std::vector<std::array<std::uint32_t, 2>> springs;  // of a body with cells: the ends of each
   std::vector<double> strain;                         // (l - L) / L by link of a chain, then by spring
+  // not written to files: [m] of each spring of an attachment, its vertex and the place that this is attached to
+  std::vector<std::array<Eigen::Vector3d, 2>> attachments;
 };
 
 }  // namespace dartboard

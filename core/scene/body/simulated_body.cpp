@@ -50,6 +50,15 @@ std::uint64_t SimulatedBody::state_hash() const {
   return h.value();
 }
 
+std::vector<std::array<Eigen::Vector3d, 2>> SimulatedBody::attachments() const {
+  std::vector<std::array<Eigen::Vector3d, 2>> all;
+  forces_.for_each([&](const BodyForce& force) {
+    const auto some = force.attachments(vertices().position);
+    all.insert(all.end(), some.begin(), some.end());
+  });
+  return all;
+}
+
 SpringSystem system_of(const VertexColumns& vertices, std::span<const SpringEnds> ends, SpringSpan springs,
                        const Eigen::Vector3d& gravity, ForceTerms terms) {
   return {.ends = ends,

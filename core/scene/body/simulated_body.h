@@ -84,6 +84,8 @@ class SimulatedBody {
   virtual double largest_stress() const = 0;
   /// pre  the body was made with rest positions if `fields` asks for displacement
   virtual Frame frame(const FrameFields& fields) const = 0;
+  /// [m] Of each spring of an attachment, its vertex and the place that this is attached to.
+  std::vector<std::array<Eigen::Vector3d, 2>> attachments() const;
   /// A hash of positions and velocities, in the order of the embeddings' numbers.
   std::uint64_t state_hash() const;
   /// The first condition of a generalized map that does not hold; empty for a valid one.

@@ -10,6 +10,7 @@ struct FrameFields {
   bool displacement = false;  // of vertices, from where they were at rest
   bool springs = false;       // every spring as a line, with its strain
   bool contact = false;       // of vertices: the force of contacts, and how deep they are inside
+  bool attachments = false;   // the springs of attachments as lines; of pictures, not of files
 };
 
 }  // namespace dartboard

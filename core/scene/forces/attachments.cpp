@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/counted.h"
 #include "core/scene/file/keys/scene_value.h"
 #include "core/scene/file/scene_file.h"
 #include "core/scene/forces/attached_points.h"
@@ -23,6 +24,11 @@ class AttachmentsForce final : public ViewedForce<AttachmentsView> {
         term_(make_attachments(view_.rows, site.vertices.mass)) {}
 
   const ForceTerm& term() const override { return *term_; }
+  std::vector<std::array<Eigen::Vector3d, 2>> attachments(std::span<const Eigen::Vector3d> x) const override {
+    std::vector<std::array<Eigen::Vector3d, 2>> lines;
+    for (const AttachedVertex& row : view_.rows) lines.push_back({x[row.nodes[0]], place_of(row, x)});
+    return lines;
+  }
   std::size_t bytes() const override { return ViewedForce::bytes() + bytes_of(attachments_); }
 
   void rebuild(const MapBody& body) override {
@@ -73,7 +79,7 @@ std::optional<ForceNeed> attachments_need(const SceneFile& scene, const Problem&
   for (std::size_t k = 0; k < scene.attachments.size(); ++k) {
     const SceneAttachment& one = scene.attachments[k];
     const std::size_t count = points[k].points.size();
-    held += fmt::format("{}{} {} to {}", k == 0 ? "" : ", ", count, count == 1 ? "vertex" : "vertices",
+    held += fmt::format("{}{} to {}", k == 0 ? "" : ", ", counted(count, "vertex", "vertices"),
                         one.to ? fmt::format("body {}", *one.to) : "fixed places");
     why += fmt::format("{}{}/stiffness: {}", k == 0 ? "" : "; ", one.path, one.stiffness);
   }

@@ -1,6 +1,7 @@
 #pragma once
 // A force of a body that a key of its scene asks for: rows that follow the body's topology, and a term over them.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -60,6 +61,8 @@ class BodyForce {
 
   /// The values that a timeline sets, by number of the scene's force; empty of a force without.
   virtual std::span<double> loads() { return {}; }
+  /// [m] Of each spring of an attachment, its vertex and the place that this is attached to.
+  virtual std::vector<std::array<Eigen::Vector3d, 2>> attachments(std::span<const Eigen::Vector3d>) const { return {}; }
   /// Does it exchange energy that no potential has, so that its work is summed?
   virtual bool does_work() const { return false; }
   virtual void begin_work(std::span<const Eigen::Vector3d>) {}

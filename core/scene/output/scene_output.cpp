@@ -138,6 +138,11 @@ void SceneOutput::finish() {
   if (writing_.valid()) writing_.get();
 }
 
+bool SceneOutput::writes(std::string_view name) {
+  return name == "frames.pvd" || name == "diagnostics.csv" || name == "probes.csv" ||
+         (name.starts_with("frame_") && name.ends_with(".vtu"));
+}
+
 void SceneOutput::write(const Diagnostics& diagnostics) {
   write_row(diagnostics_, "diagnostics.csv", diagnostics_row(diagnostics));
 }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/folder_claim.h"
@@ -75,6 +76,9 @@ class SceneOutput {
   void finish();
   void write(const Diagnostics& diagnostics);
   void write(const ProbeRow& row);
+
+  /// Is this the name of a file that it writes?
+  static bool writes(std::string_view name);
 
   const std::filesystem::path& folder() const { return folder_; }
   /// Those that are written, or being written.

@@ -53,7 +53,6 @@ std::string output_reason(std::string_view key, const std::optional<std::uint64_
 }
 
 /// "1 vertex", "2 vertices".
-std::string counted_vertices(std::size_t n) { return fmt::format("{} {}", n, n == 1 ? "vertex" : "vertices"); }
 
 class Planner {
  public:
@@ -182,7 +181,7 @@ class Planner {
     DivergenceDetector detector;
     detector.start(body_.system(), {x, v}, scene_.step);
     add(Part::driven,
-        fmt::format("paths of {}, and {} whose work is summed", counted_vertices(vertices.size()),
+        fmt::format("paths of {}, and {} whose work is summed", counted(vertices.size(), "vertex", "vertices"),
                     counted(detector.driven_springs(), "spring")),
         fmt::format("/driven: {}", counted(scene_.driven.size(), "selection")));
   }
@@ -354,7 +353,7 @@ class Planner {
             (compressor ? fmt::format(", compressed by {}", *compressor == Compressor::zlib ? "zlib" : "LZ4") : ""),
         output_reason("frames_every", scene_.output.frame_steps));
     if (!scene_.probes.empty())
-      add(Part::probes, counted_vertices(scene_.probes.size()) + " followed", "/output/probes");
+      add(Part::probes, counted(scene_.probes.size(), "vertex", "vertices") + " followed", "/output/probes");
     add(Part::diagnostics,
         fmt::format("energies, momenta, boundary, {}", stress_name(problem_.mesh.highest_dimension())),
         output_reason("diagnostics_every", scene_.output.diagnostic_steps));

@@ -362,6 +362,7 @@ Frame Simulation::frame(const FrameFields& fields) const {
   frame.time = time();
   if (fields.held)
     frame.held = constraints_of(body_->vertices(), [this](std::uint32_t point) { return timeline_->moves(point); });
+  if (fields.attachments) frame.attachments = body_->attachments();
   if (!body_of_cell_.empty())
     for (const std::uint32_t c : frame.mesh_cell) frame.body.push_back(body_of_cell_[c]);
   put_in_order(frame, file_number_);

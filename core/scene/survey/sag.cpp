@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
+#include <span>
+
+#include "core/plain/extent.h"
 
 namespace dartboard {
 namespace {
@@ -13,15 +15,6 @@ bool is_held(const Problem& problem, std::size_t first, std::size_t end) {
   const auto is_of_body = [first, end](std::size_t point) { return point >= first && point < end; };
   return std::ranges::any_of(problem.fixed, is_of_body) ||
          std::ranges::any_of(problem.held_axes, is_of_body, &HeldPoint::point);
-}
-
-double extent_along(const Eigen::Vector3d& axis, const Mesh& mesh, std::size_t first, std::size_t end) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t p = first; p < end; ++p) {
-    low = std::min(low, axis.dot(mesh.points[p]));
-    high = std::max(high, axis.dot(mesh.points[p]));
-  }
-  return high - low;
 }
 
 }  // namespace
@@ -49,7 +42,8 @@ std::vector<Sag> find_sags(const SceneFile& scene, const Problem& problem) {
     if (softness == 0.0) continue;
     softness /= static_cast<double>(ranges.cell[b + 1] - ranges.cell[b]);
     const double height =
-        extent_along(problem.surroundings.gravity / gravity, problem.mesh, ranges.point[b], ranges.point[b + 1]);
+        extent_along(problem.surroundings.gravity / gravity,
+                     std::span(problem.mesh.points).subspan(ranges.point[b], ranges.point[b + 1] - ranges.point[b]));
     const double strain = softness * gravity * height / 2.0;
     if (strain > 1.0) found.push_back({bodies[b].path, height, strain});
   }

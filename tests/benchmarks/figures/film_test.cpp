@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/figures/album.h"
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/moving_box.h"
 
@@ -15,33 +16,33 @@ namespace {
 using moving::Json;
 using moving::moving_box;
 
-Film film_of(const Json& scene, std::uint64_t steps) {
+std::vector<BodyPanel> film_of(const Json& scene, std::uint64_t steps) {
   Simulation simulation(moving::parse(scene));
-  Film film(simulation, steps, {0, 0, 1});
+  Album film(simulation, steps, most_film_pictures, {});
   for (std::uint64_t k = 0; k < steps; ++k) {
     EXPECT_FALSE(simulation.advance());
     film.stepped(simulation);
   }
   film.ended(simulation);
-  return film;
+  return film.panels();
 }
 
 TEST(Film, OfFewStepsHasAFrameOfEach) {
-  const Film film = film_of(moving_box(), 10);
-  ASSERT_EQ(film.frames().size(), 11u);
-  for (std::size_t k = 0; k < 11; ++k) EXPECT_DOUBLE_EQ(film.frames()[k].time, 0.001 * static_cast<double>(k));
+  const auto film = film_of(moving_box(), 10);
+  ASSERT_EQ(film.size(), 11u);
+  for (std::size_t k = 0; k < 11; ++k) EXPECT_DOUBLE_EQ(film[k].time, 0.001 * static_cast<double>(k));
 }
 
 // 300 steps in 120 parts: every part is two or three steps
 TEST(Film, OfManyStepsHasAHundredAndTwentyFramesAfterTheFirstAndTheLastIsTheEnd) {
   Json scene = moving_box();
   scene["duration"] = 0.3;
-  const Film film = film_of(scene, 300);
-  ASSERT_EQ(film.frames().size(), 121u);
-  EXPECT_EQ(film.frames().front().time, 0.0);
-  EXPECT_DOUBLE_EQ(film.frames().back().time, 0.3);
-  for (std::size_t k = 1; k < film.frames().size(); ++k) {
-    const double apart = film.frames()[k].time - film.frames()[k - 1].time;
+  const auto film = film_of(scene, 300);
+  ASSERT_EQ(film.size(), 121u);
+  EXPECT_EQ(film.front().time, 0.0);
+  EXPECT_DOUBLE_EQ(film.back().time, 0.3);
+  for (std::size_t k = 1; k < film.size(); ++k) {
+    const double apart = film[k].time - film[k - 1].time;
     EXPECT_TRUE(apart > 0.0015 && apart < 0.0035) << k;
   }
 }
@@ -51,21 +52,23 @@ TEST(Film, EndsWithTheLastGoodStateOfAMotionThatDiverges) {
   scene["step"] = 0.2;  // beyond the stable one: the second step diverges
   scene["duration"] = 20;
   Simulation simulation(moving::parse(scene));
-  Film film(simulation, 100, {0, 0, 1});
+  Album film(simulation, 100, most_film_pictures, {});
   while (!simulation.advance()) film.stepped(simulation);
-  ASSERT_GT(film.frames().back().time, simulation.time());  // the simulation was taken back
+  ASSERT_GT(film.panels().back().time, simulation.time());  // the simulation was taken back
   film.ended(simulation);
-  EXPECT_EQ(film.frames().back().time, simulation.time());
+  EXPECT_EQ(film.panels().back().time, simulation.time());
 }
 
-TEST(Film, ShowsTheBodyAsAPictureDoes) {
+TEST(Album, OfThreePicturesHasTheFirstStepsAfterEachThirdOfTheRun) {
   Simulation simulation(moving::parse(moving_box()));
-  const Film film(simulation, 1, {1, 0, 0});
-  const Frame panel = simulation.frame({});
-  const Frame turned = upright(std::span(&panel, 1), {1, 0, 0})[0];
-  const auto drawn = drawn_facets(turned, turned);
-  ASSERT_EQ(film.frames()[0].facets.size(), drawn.size());
-  for (std::size_t k = 0; k < drawn.size(); ++k) EXPECT_EQ(film.frames()[0].facets[k].corners, drawn[k].corners);
+  Album album(simulation, 10, 3, {});
+  for (int k = 0; k < 10; ++k) {
+    EXPECT_FALSE(simulation.advance());
+    album.stepped(simulation);
+  }
+  std::vector<double> times;
+  for (const BodyPanel& panel : album.panels()) times.push_back(panel.time);
+  EXPECT_EQ(times, (std::vector{0.0, 0.004, 0.007, 0.01}));
 }
 
 /// Data of a GIF file (specification, version 89a): the delay before each picture in hundredths of a second.
@@ -104,8 +107,8 @@ class FilmFiles : public FolderTest {};
 
 // 11 frames of a motion of 0.01 s, shown for 4 s: 400 / 11 = 36 hundredths each
 TEST_F(FilmFiles, AreAGifOfAllFramesThatLastsFourSecondsAtLeast) {
-  const Film film = film_of(moving_box(), 10);
-  ASSERT_EQ(draw_film(film.frames(), "box", folder_, "film"), "");
+  const auto film = film_of(moving_box(), 10);
+  ASSERT_EQ(draw_film(film, {}, "box", folder_, "film"), "");
   const Gif gif = read_gif(text("film.gif"));
   EXPECT_TRUE(gif.ends);
   EXPECT_EQ(gif.pictures, 11);
@@ -116,10 +119,10 @@ TEST_F(FilmFiles, AreAGifOfAllFramesThatLastsFourSecondsAtLeast) {
 TEST_F(FilmFiles, OfABodyOfWhichNothingIsLeftSaySo) {
   Json scene = moving::with_events(moving_box(),
                                    R"([{"at": 0.002, "remove": {"box": {"min": [-9, -9, -9], "max": [9, 9, 9]}}}])");
-  const Film film = film_of(scene, 4);
-  ASSERT_EQ(draw_film(film.frames(), "box", folder_, "film"), "");
+  const auto film = film_of(scene, 4);
+  ASSERT_EQ(draw_film(film, {}, "box", folder_, "film"), "");
   EXPECT_EQ(read_gif(text("film.gif")).pictures, 5);
-  ASSERT_NE(draw_film(film.frames(), "box", folder_, "film", "false"), "");  // the script remains
+  ASSERT_NE(draw_film(film, {}, "box", folder_, "film", "false"), "");  // the script remains
   const std::string script = text("film.gnuplot");
   std::size_t empty = 0;
   for (auto at = script.find("nothing left"); at != std::string::npos; at = script.find("nothing left", at + 1))
@@ -128,8 +131,8 @@ TEST_F(FilmFiles, OfABodyOfWhichNothingIsLeftSaySo) {
 }
 
 TEST_F(FilmFiles, ShowEachFrameFromItsOwnData) {
-  const Film film = film_of(moving_box(), 3);
-  ASSERT_NE(draw_film(film.frames(), "box", folder_, "film", "false"), "");
+  const auto film = film_of(moving_box(), 3);
+  ASSERT_NE(draw_film(film, {}, "box", folder_, "film", "false"), "");
   const std::string script = text("film.gnuplot");
   std::size_t at = 0;
   for (const char* plotted : {"film.dat' index 0 ", "film.dat' index 1 ", "film.dat' index 2 ", "film.dat' index 3 "}) {
@@ -139,15 +142,14 @@ TEST_F(FilmFiles, ShowEachFrameFromItsOwnData) {
 }
 
 TEST_F(FilmFiles, AreOneFileOnceTheyAreDrawn) {
-  const Film film = film_of(moving_box(), 3);
-  ASSERT_EQ(draw_film(film.frames(), "box", folder_, "film"), "");
+  const auto film = film_of(moving_box(), 3);
+  ASSERT_EQ(draw_film(film, {}, "box", folder_, "film"), "");
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) EXPECT_EQ(entry.path().filename(), "film.gif");
 }
 
 TEST_F(FilmFiles, AreNotDrawnWithoutGnuplotAndTheReasonIsTold) {
-  const Film film = film_of(moving_box(), 1);
-  EXPECT_NE(draw_film(film.frames(), "box", folder_, "film", "no-such-program").find("no-such-program"),
-            std::string::npos);
+  const auto film = film_of(moving_box(), 1);
+  EXPECT_NE(draw_film(film, {}, "box", folder_, "film", "no-such-program").find("no-such-program"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "film.dat"));
 }
 

@@ -57,6 +57,7 @@ TEST(Attachments, AreTheSquaresOfTheirStretches) {
       stretch += slope[i] * x[i];
       rate += slope[i] * w[i];
     }
+    EXPECT_LT((x[row.nodes[0]] - place_of(row, x) - stretch).norm(), 1e-14);
     const double k = row.per_mass * mass[row.nodes[0]];
     energy += 0.5 * k * stretch.squaredNorm();
     power -= k * stretch.dot(rate);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "core/base/folder_claim.h"
 #include "core/plain/error.h"
@@ -30,10 +31,10 @@ class EarlierRun : public FolderTest {
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) found.insert(entry.path().filename());
     return found;
   }
-  void expect_refused(const std::string& why) {
+  void expect_refused(const std::string& why, const std::vector<std::filesystem::path>& inputs = {}) {
     const auto before = names();
     try {
-      empty_run_folder(folder_);
+      empty_run_folder(folder_, inputs);
       ADD_FAILURE() << "emptied";
     } catch (const IoError& error) {
       EXPECT_EQ(error.what(),
@@ -55,6 +56,12 @@ TEST_F(EarlierRun, MayBeMissing) {
   empty_run_folder(folder_);
   empty_run_folder(folder_ / "none");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none"));
+}
+
+TEST_F(EarlierRun, KeepsAFileThatTheNewRunReads) {
+  put_run();
+  expect_refused("has 'frame_000000.vtu', which the new run reads",
+                 {folder_ / "none.mesh", folder_ / ".." / folder_.filename() / "frame_000000.vtu"});
 }
 
 TEST_F(EarlierRun, HasAManifestOfThisProgram) {
