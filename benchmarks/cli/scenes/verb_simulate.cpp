@@ -38,7 +38,7 @@ namespace {
 
 struct SimulateOptions {
   std::string scene, out, continued;
-  ColourBy colour = ColourBy::component;
+  std::string colour = "component";
   bool json = false, quick = false, picture = false, film = false, replace = false;
   std::optional<std::uint64_t> steps, seed;
   unsigned threads = 0;
@@ -53,6 +53,11 @@ const std::map<std::string, ColourBy> colours_by_name{{"component", ColourBy::co
                                                       {"material", ColourBy::material},
                                                       {"speed", ColourBy::speed},
                                                       {"stress", ColourBy::stress}};
+std::vector<std::string> colour_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, colour] : colours_by_name) names.push_back(name);
+  return names;
+}
 
 /// Draws pictures, reports progress, and ends the run on a signal.
 class Watcher : public RunWatcher {
@@ -126,7 +131,7 @@ void simulate(const SimulateOptions& options, const StepChoice& choose_step, Out
   const Simulation& simulation = run.simulation();
   const std::string opening = opening_of(scene, run.survey(), simulation, step_in_words(simulation, scene));
   // in a continued run, too, pictures begin at its start, where nothing has been cut
-  const Look look = look_of(scene, options.colour);
+  const Look look = look_of(scene, colours_by_name.at(options.colour));
   std::optional<Album> picture, film;
   std::vector<RunWatcher*> pictures;
   if (options.picture) pictures.push_back(&picture.emplace(simulation, run.last_step(), 3, look));
@@ -232,12 +237,15 @@ void add_simulate(CLI::App& app, Outcome& outcome, StepChoice choose_step) {
           "remove the files of an earlier run from the folder of --out; nothing is removed if it holds any others")
       ->needs(out);
   verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder");
-  verb->add_flag("--film", options->film, "draw the body as it moves, an animated GIF, into that folder");
+  verb->add_flag(
+      "--film", options->film,
+      "draw the body as it moves, an animated GIF, into that folder: as fast as the motion, but 4 seconds at least "
+      "and 12 at most");
   auto* colour =
       verb->add_option("--colour", options->colour,
                        "colour the bodies of pictures and films by component, material, speed or (von Mises) stress "
                        "[component]");
-  colour->transform(CLI::CheckedTransformer(colours_by_name).description(""));
+  colour->check(CLI::IsMember(colour_names()));
   verb->add_option("--steps", options->steps, "stop after so many steps");
   verb->add_option(
           "--threads", options->threads,
