@@ -5,7 +5,7 @@
 //   body     mass_spring_body.h                a map whose cells carry mass, stiffness, position, velocity
 //   change   dissociate_*.h, remove_*.h        topological operations ...
 //            adapt.h, refine.h, split_off.h    ... and how embeddings follow
-//   tear     seam.h, tearing.h, stress.h       along a plane, or where the stress is too high
+//   tear     seam.h, tearing.h, stress.h       along a plane, between chosen cells, or where the stress is too high
 //   follow   views.h                           arrays that keep up with changes
 //   touch    skin.h, obstacle_contact.h        samples of the boundary, and the force term of what they run into ...
 //            skin_solids_view.h                ... and what they may be inside of,

@@ -1,29 +1,37 @@
 #include "benchmarks/figures/album.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dartboard {
 
-Album::Album(const Simulation& simulation, std::uint64_t steps, std::uint64_t pictures, const Look& look)
-    : steps_(steps),
-      pictures_(std::min(steps, pictures)),
-      fields_(BodyFacets::fields(look)),
-      facets_(look, frame_of(simulation)) {
-  take(simulation);
+std::vector<std::uint64_t> even_steps(std::uint64_t steps, std::uint64_t pictures) {
+  std::vector<std::uint64_t> all{0};
+  pictures = std::min(steps, pictures);
+  for (std::uint64_t k = 1; k <= pictures; ++k) all.push_back((k * steps + pictures - 1) / pictures);
+  return all;
+}
+
+Album::Album(const Simulation& simulation, std::vector<std::uint64_t> steps, const Look& look)
+    : steps_(std::move(steps)), fields_(BodyFacets::fields(look)), facets_(look, frame_of(simulation)) {
+  take(simulation);  // by which colours of later ones are chosen
+  if (steps_.empty() || steps_[0] > 0) panels_.clear();
 }
 
 void Album::stepped(const Simulation& simulation) {
   const std::uint64_t n = simulation.steps_done();
-  if (n * pictures_ / steps_ > (n - 1) * pictures_ / steps_) take(simulation);
+  while (next_ < steps_.size() && steps_[next_] < n) ++next_;
+  if (next_ < steps_.size() && steps_[next_] == n) take(simulation);
 }
 
 void Album::ended(const Simulation& simulation) {
   while (panels_.size() > 1 && panels_.back().time > simulation.time()) panels_.pop_back();
-  if (panels_.back().time < simulation.time()) take(simulation);
+  const bool is_early = !steps_.empty() && simulation.steps_done() < steps_.back();
+  if (panels_.empty() || (is_early && panels_.back().time < simulation.time())) take(simulation);
 }
 
-Look look_of(const SceneFile& scene, ColourBy colour) {
-  Look look{.up = -scene.gravity, .colour = colour};
+Look look_of(const SceneFile& scene, ColourBy colour, const Eigen::Vector3d& from) {
+  Look look{.view = PictureView(-scene.gravity, from), .colour = colour};
   for (const SceneObstacle& one : scene.obstacles) look.obstacles.push_back(one.obstacle);
   return look;
 }

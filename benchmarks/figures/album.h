@@ -1,5 +1,5 @@
 #pragma once
-// A run as pictures show it, at evenly spaced times.
+// A run as pictures show it.
 
 #include <cstdint>
 #include <vector>
@@ -9,11 +9,14 @@
 
 namespace dartboard {
 
-/// The bodies as they are seen at the start and at some evenly spaced times to the end; what is inside is not kept.
+/// The start of a run of so many steps, and of its evenly spaced times, so many of them, the first steps after each.
+std::vector<std::uint64_t> even_steps(std::uint64_t steps, std::uint64_t pictures);
+
+/// The bodies as they are seen after some steps; what is inside is not kept.
 class Album : public RunWatcher {
  public:
-  /// `pictures` after the first, or one of each step if there are fewer.
-  Album(const Simulation& simulation, std::uint64_t steps, std::uint64_t pictures, const Look& look);
+  /// pre  the steps ascend
+  Album(const Simulation& simulation, std::vector<std::uint64_t> steps, const Look& look);
 
   void stepped(const Simulation& simulation) override;
   /// The last good state of a run that ended before its time, and none after it.
@@ -24,13 +27,15 @@ class Album : public RunWatcher {
   Frame frame_of(const Simulation& simulation) const { return simulation.frame(fields_); }
   void take(const Simulation& simulation) { panels_.push_back(facets_.of(frame_of(simulation))); }
 
-  std::uint64_t steps_, pictures_;
+  std::vector<std::uint64_t> steps_;
+  std::size_t next_ = 0;  // of them
   FrameFields fields_;
   BodyFacets facets_;
   std::vector<BodyPanel> panels_;
 };
 
 /// Of a scene, so that what its gravity pulls down is below.
-Look look_of(const SceneFile& scene, ColourBy colour = ColourBy::component);
+Look look_of(const SceneFile& scene, ColourBy colour = ColourBy::component,
+             const Eigen::Vector3d& from = Eigen::Vector3d::Zero());
 
 }  // namespace dartboard

@@ -103,20 +103,23 @@ class Values {
   std::string unit_;
 };
 
+// A colour between two; beyond the second, as far as channels go.
+std::uint32_t between(std::uint32_t from, std::uint32_t to, double share) {
+  std::uint32_t out = 0;
+  for (const int shift : {16, 8, 0}) {
+    const double low = (from >> shift) & 0xff, high = (to >> shift) & 0xff;
+    out |= static_cast<std::uint32_t>(std::lround(std::min(255.0, low + share * (high - low)))) << shift;
+  }
+  return out;
+}
+
 std::uint32_t colour_of_held(std::uint8_t held) {
   return held == 1 ? colours::held : held == 2 ? colours::driven : colours::held_in_part;
 }
 
 }  // namespace
 
-std::uint32_t lit(std::uint32_t colour, double light) {
-  std::uint32_t out = 0;
-  for (const int shift : {16, 8, 0}) {
-    const double channel = light * static_cast<double>((colour >> shift) & 0xff);
-    out |= static_cast<std::uint32_t>(std::lround(std::min(255.0, channel))) << shift;
-  }
-  return out;
-}
+std::uint32_t lit(std::uint32_t colour, double light) { return between(0, colour, light); }
 
 std::uint32_t shade_of(double share) {
   // from blue to yellow, in steps for the same reason as those of light
@@ -124,13 +127,7 @@ std::uint32_t shade_of(double share) {
   constexpr double steps = 16.0;
   const double at = share > 0.0 ? 4.0 * std::min(1.0, std::floor(steps * share) / (steps - 1.0)) : 0.0;
   const auto low = std::min<std::size_t>(3, static_cast<std::size_t>(at));
-  std::uint32_t out = 0;
-  for (const int shift : {16, 8, 0}) {
-    const double from = static_cast<double>((shades[low] >> shift) & 0xff),
-                 to = static_cast<double>((shades[low + 1] >> shift) & 0xff);
-    out |= static_cast<std::uint32_t>(std::lround(from + (to - from) * (at - static_cast<double>(low)))) << shift;
-  }
-  return out;
+  return between(shades[low], shades[low + 1], at - static_cast<double>(low));
 }
 
 std::vector<std::pair<std::uint32_t, std::string>> legend_of(const Look& look) {
@@ -177,7 +174,7 @@ std::vector<std::uint32_t> LastingComponents::of(const Frame& frame) {
   return number;
 }
 
-BodyFacets::BodyFacets(const Look& look, const Frame& first) : view_(look.up), colour_(look.colour) {
+BodyFacets::BodyFacets(const Look& look, const Frame& first) : view_(look.view), colour_(look.colour) {
   const Origins origins(first);
   for (const Facet& facet : facets_of(first.mesh)) skin_.insert(origins.of(facet));
 }

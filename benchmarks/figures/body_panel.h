@@ -17,7 +17,7 @@ enum class ColourBy { component, material, speed, stress };
 
 /// How a scene is shown, the same at all times.
 struct Look {
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // shown upwards; zero: z is
+  PictureView view{};
   ColourBy colour = ColourBy::component;
   std::vector<Obstacle> obstacles{};
 };

@@ -125,35 +125,29 @@ std::string draw_bodies(std::span<const BodyPanel> panels, const Look& look, con
   const Drawing drawing = drawing_of(panels, look, 0.1);
   const Vector2d& size = drawing.area.size;
 
-  constexpr double widest = 1400, highest = 900, head = 44, captions = 26;  // [pixels]
+  constexpr double widest = 1400, highest = 830;  // [pixels]
   const double count = static_cast<double>(std::max<std::size_t>(1, panels.size()));
   constexpr double apart = 1.15, caption = 135;  // times the body's width; [pixels]
-  const double pixels = std::min(widest / (count * apart * size.x()), (highest - head - captions) / size.y());
+  const double pixels = std::min(widest / (count * apart * size.x()), highest / size.y());
   const double pitch = std::max(apart * size.x(), caption / pixels);  // [m] from one time to the next
-  Canvas canvas{.pixels = pixels, .width = static_cast<int>(std::lround(std::max(560.0, pixels * count * pitch)))};
-  const double below = captions + footer_height(drawing, look, pixels, canvas.width);
-  canvas.height = static_cast<int>(std::lround(pixels * size.y() + head + below));
-  canvas.low = Vector2d((count - 1) / 2 * pitch - canvas.width / (2 * pixels), -size.y() / 2 - below / pixels);
-  const double caption_at = -size.y() / 2 - 0.5 * captions / pixels;
+  const int width = static_cast<int>(std::lround(std::max(560.0, pixels * count * pitch)));
+  const Sheet sheet = sheet_of(drawing, look, title, pixels, width, (count - 1) / 2 * pitch, 16);
   std::string data, labels;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const BodyPanel& panel = drawing.panels[k];
     const double middle = static_cast<double>(k) * pitch;
     data += polygons_of(panel.facets, Vector2d(middle, 0) - drawing.area.centre_of(panel.box), pixels);
-    labels +=
-        fmt::format("set label {} {} at {:.6g},{:.6g} center font \",13\"\n", k + 1,
-                    gnuplot_string(fmt::format("t = {:.3g} s{}", panel.time, panel.is_empty() ? ", nothing left" : "")),
-                    middle, caption_at);
+    labels += sheet.time_of(panel, static_cast<int>(k) + 1, middle);
     if (k > 0)
       labels += fmt::format("set arrow {0} from {1:.6g},{2:.6g} to {1:.6g},{3:.6g} nohead linecolor rgb \"#d8d8d8\"\n",
-                            k, middle - pitch / 2, -size.y() / 2 - captions / pixels, size.y() / 2);
+                            k, middle - pitch / 2, -size.y() / 2 - Sheet::times / pixels, size.y() / 2);
   }
   write_plot_file(folder / (name + ".dat"), data);
   const std::string commands = data.empty() ? "plot NaN"
                                             : fmt::format("plot {} using 1:2:3 with polygons fillcolor rgb variable",
                                                           plot_source(name + ".dat"));
-  write_plot_file(folder / (name + ".gnuplot"), canvas_commands(canvas, drawing, look, title, 16) + labels +
-                                                    for_both_pictures(commands, name, canvas.width, canvas.height));
+  write_plot_file(folder / (name + ".gnuplot"),
+                  sheet.commands + labels + for_both_pictures(commands, name, width, sheet.canvas.height));
   return run_gnuplot(gnuplot, folder, name);
 }
 

@@ -50,11 +50,21 @@ struct Canvas {
   /// The place [m] so many pixels to the right of the lower left corner and above it.
   Eigen::Vector2d at(double right, double up) const { return low + Eigen::Vector2d(right, up) / pixels; }
 };
-/// Commands that make gnuplot's axes that area, with a title, and below it a scale bar and the meanings of colours.
-std::string canvas_commands(const Canvas& canvas, const Drawing& drawing, const Look& look, const std::string& title,
-                            double font);
-/// [pixels] The height of what is below.
-double footer_height(const Drawing& drawing, const Look& look, double pixels, int width);
+/// A canvas with a title above, and below the times of its pictures, a scale bar and the meanings of colours.
+struct Sheet {
+  static constexpr double head = 42, times = 25;  // [pixels]
+
+  Canvas canvas;
+  double font;           // [points] of the title
+  double up_to_times{};  // [pixels] from the lower border
+  std::string commands{};
+
+  /// The command that writes a panel's time under the middle [m] of its picture.
+  std::string time_of(const BodyPanel& panel, int tag, double middle) const;
+};
+/// For pictures of the drawing's size around `middle` [m], at so many pixels per metre.
+Sheet sheet_of(const Drawing& drawing, const Look& look, const std::string& title, double pixels, int width,
+               double middle, double font);
 
 /// Draw bodies side by side at one scale, each with its time; `name`.png, `name`.svg, and the data and script they are
 /// drawn from.

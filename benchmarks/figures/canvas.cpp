@@ -146,21 +146,32 @@ class Footer {
 
 }  // namespace
 
-double footer_height(const Drawing& drawing, const Look& look, double pixels, int width) {
-  return Footer(drawing, look, {.pixels = pixels, .width = width}).height();
+std::string Sheet::time_of(const BodyPanel& panel, int tag, double middle) const {
+  return fmt::format(
+      "set label {} {} at {:.6g},{:.6g} center font \",{:g}\"\n", tag,
+      gnuplot_string(fmt::format("t = {:.3g} s{}", panel.time, panel.is_empty() ? ", nothing left" : "")), middle,
+      canvas.low.y() + up_to_times / canvas.pixels, font - 3);
 }
 
-std::string canvas_commands(const Canvas& canvas, const Drawing& drawing, const Look& look, const std::string& title,
-                            double font) {
-  const Vector2d high = canvas.at(canvas.width, canvas.height),
-                 head = canvas.at(canvas.width / 2.0, canvas.height - 20);
-  return fmt::format(
-             "set encoding utf8\nunset key\nunset border\nunset tics\nset margins 0,0,0,0\nset size ratio -1\n"
-             "set label 1000 {} at {:.8g},{:.8g} center font \",{:g}\" noenhanced\n"
-             "set xrange [{:.8g}:{:.8g}]\nset yrange [{:.8g}:{:.8g}]\nset style fill solid 1.0 noborder\n",
-             quoted_title(title, canvas.width, font, 1), head.x(), head.y(), font, canvas.low.x(), high.x(),
-             canvas.low.y(), high.y()) +
-         Footer(drawing, look, canvas).commands();
+Sheet sheet_of(const Drawing& drawing, const Look& look, const std::string& title, double pixels, int width,
+               double middle, double font) {
+  Sheet sheet{.canvas = {.pixels = pixels, .width = width}, .font = font};
+  Canvas& canvas = sheet.canvas;
+  Footer footer(drawing, look, canvas);
+  const double below = Sheet::times + footer.height(), high = drawing.area.size.y();
+  sheet.up_to_times = footer.height() + 0.5 * Sheet::times;
+  canvas.height = static_cast<int>(std::lround(pixels * high + Sheet::head + below));
+  canvas.low = Vector2d(middle - width / (2 * pixels), -high / 2 - below / pixels);
+  const Vector2d top = canvas.at(width, canvas.height), head = canvas.at(width / 2.0, canvas.height - 20);
+  sheet.commands =
+      fmt::format(
+          "set encoding utf8\nunset key\nunset border\nunset tics\nset margins 0,0,0,0\nset size ratio -1\n"
+          "set label 1000 {} at {:.8g},{:.8g} center font \",{:g}\" noenhanced\n"
+          "set xrange [{:.8g}:{:.8g}]\nset yrange [{:.8g}:{:.8g}]\nset style fill solid 1.0 noborder\n",
+          quoted_title(title, width, font, 1), head.x(), head.y(), font, canvas.low.x(), top.x(), canvas.low.y(),
+          top.y()) +
+      footer.commands();
+  return sheet;
 }
 
 }  // namespace dartboard

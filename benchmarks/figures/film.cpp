@@ -20,12 +20,10 @@ std::string draw_film(std::span<const BodyPanel> panels, const Look& look, const
   const Drawing drawing = drawing_of(panels, look, 0.25);
   const Vector2d& size = drawing.area.size;
 
-  constexpr double widest = 640, highest = 560, head = 40, captions = 24;                          // [pixels]
-  const double pixels = std::min(widest / size.x(), (highest - head - captions - 44) / size.y());  // per metre
-  Canvas canvas{.pixels = pixels, .width = static_cast<int>(std::lround(std::max(320.0, pixels * size.x())))};
-  const double below = captions + footer_height(drawing, look, pixels, canvas.width);
-  canvas.height = static_cast<int>(std::lround(pixels * size.y() + head + below));
-  canvas.low = Vector2d(-canvas.width / (2 * pixels), -size.y() / 2 - below / pixels);
+  constexpr double widest = 640, highest = 450;                           // [pixels]
+  const double pixels = std::min(widest / size.x(), highest / size.y());  // per metre
+  const int width = static_cast<int>(std::lround(std::max(320.0, pixels * size.x())));
+  const Sheet sheet = sheet_of(drawing, look, title, pixels, width, 0.0, 15);
   const double lasts = std::clamp(panels.back().time - panels.front().time, 4.0, 12.0);  // [s]
   const double hundredths = std::max(3.0, std::round(100.0 * lasts / static_cast<double>(panels.size())));
 
@@ -33,17 +31,15 @@ std::string draw_film(std::span<const BodyPanel> panels, const Look& look, const
       fmt::format(
           "set terminal gif animate delay {} loop 0 size {},{} font \"DejaVu Sans,12\" background rgb \"white\"\n"
           "set output {}\n",
-          hundredths, canvas.width, canvas.height, plot_source(name + ".gif")) +
-      canvas_commands(canvas, drawing, look, title, 14);
+          hundredths, width, sheet.canvas.height, plot_source(name + ".gif")) +
+      sheet.commands;
   DataBlocks data(name);
   for (const BodyPanel& panel : drawing.panels) {
-    const std::string time = fmt::format("t = {:.3g} s{}", panel.time, panel.is_empty() ? ", nothing left" : "");
-    script += fmt::format("set label 1 {} at 0,{:.6g} center font \",12\"\n", gnuplot_string(time),
-                          -size.y() / 2 - 0.5 * captions / pixels);
+    script += sheet.time_of(panel, 1, 0.0);
     const std::string polygons = polygons_of(panel.facets, -drawing.area.centre_of(panel.box), pixels);
-    script += polygons.empty()
-                  ? "plot NaN\n"
-                  : fmt::format("plot {} using 1:2:3 with polygons fillcolor rgb variable\n", data.add(time, polygons));
+    script += polygons.empty() ? "plot NaN\n"
+                               : fmt::format("plot {} using 1:2:3 with polygons fillcolor rgb variable\n",
+                                             data.add(fmt::format("{:.3g} s", panel.time), polygons));
   }
   write_plot_file(folder / data.file(), data.text());
   write_plot_file(folder / (name + ".gnuplot"), script + "unset output\n");

@@ -78,7 +78,7 @@ Box3 box_around(const ObstacleShape& shape) {
 }  // namespace
 
 std::vector<DrawnFacet> facets_of_obstacles(const Look& look, double time, const Box3& reach) {
-  const PictureView view(look.up);
+  const PictureView& view = look.view;
   // bodies are in obstacles that they touch by some of the depth of the law, and are seen all the same
   const double back = reach.isEmpty() ? 0.0 : 0.02 * reach.sizes().maxCoeff();
   std::vector<DrawnFacet> facets;

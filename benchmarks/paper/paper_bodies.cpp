@@ -17,7 +17,7 @@ const std::filesystem::path meshes = source_folder() / "benchmarks" / "meshes";
 // The stiffness makes the body sag by about a millimetre and h omega_max about 0.3, well inside the 2.83 of RK4.
 Problem liver() {
   Problem problem;
-  problem.mesh = read_mesh(meshes / "liver564.mesh").mesh;
+  problem.mesh = read_mesh(meshes / "liver564.mesh");
   problem.material = {.density = 1000.0, .stiffness = 5.0, .damping = 0.005, .viscosity = 0.5};
   problem.h = 1e-3;
   double low = problem.mesh.points[0].z(), high = low;

@@ -90,7 +90,7 @@ LoadedMesh read_tetgen_files(const fs::path& node_path, const fs::path& ele_path
 
 }  // namespace
 
-LoadedMesh read_mesh(const fs::path& path, const MeshReading& reading) {
+LoadedMesh read_mesh_file(const fs::path& path, const MeshReading& reading) {
   if (!is_there(path) && is_there(with(path, ".node")))
     return read_tetgen_files(with(path, ".node"), with(path, ".ele"), reading);
   const auto format = format_of(path);
@@ -106,6 +106,8 @@ LoadedMesh read_mesh(const fs::path& path, const MeshReading& reading) {
   const std::string text = mesh_text(path, fmt::format("a mesh file: {}", known_extensions()));
   return parse_mesh(text, *format, path.string(), reading);
 }
+
+Mesh read_mesh(const fs::path& path, const MeshReading& reading) { return read_mesh_file(path, reading).mesh; }
 
 LoadedMesh parse_mesh(std::string_view text, MeshFormat format, const std::string& name, const MeshReading& reading) {
   MeshBuilder builder(name, name);

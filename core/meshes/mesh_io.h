@@ -32,7 +32,10 @@ std::span<const MeshFormatInfo> mesh_formats();
 ///
 /// throws  IoError when the file cannot be read, is malformed, or is not a mesh by the rules of check_and_repair;
 ///         InputError as weld_points
-LoadedMesh read_mesh(const std::filesystem::path& path, const MeshReading& reading = {});
+LoadedMesh read_mesh_file(const std::filesystem::path& path, const MeshReading& reading = {});
+
+/// The mesh alone, for a program that does not ask for notices, tags of cells and numbers of points.
+Mesh read_mesh(const std::filesystem::path& path, const MeshReading& reading = {});
 
 /// Reads a text in memory; `name` stands for the file in errors. A TetGen text is the .node file followed by
 /// the .ele file.

@@ -82,6 +82,8 @@ std::span<const SolverEntry> linear_solvers() { return solvers; }
 
 std::unique_ptr<Integrator> make_integrator(std::string_view name) { return entry_of(name).make(); }
 
+const Scheme& scheme_of(std::string_view name) { return make_integrator(name)->scheme(); }
+
 std::unique_ptr<Integrator> make_integrator(std::string_view name, std::string_view solver) {
   const IntegratorEntry& entry = entry_of(name);
   if (solver.empty()) return entry.make();

@@ -22,6 +22,9 @@ std::span<const IntegratorEntry> integrators();
 
 /// throws  InputError for a name that is not in the table; the message lists those that are
 std::unique_ptr<Integrator> make_integrator(std::string_view name);
+/// Its scheme.
+/// throws  as make_integrator
+const Scheme& scheme_of(std::string_view name);
 
 struct SolverEntry {
   std::string_view name;

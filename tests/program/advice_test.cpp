@@ -56,5 +56,25 @@ TEST_F(AdviceOfPrograms, RefusesColoursOfNoPictureAndColoursThatAreNoQuantity) {
   EXPECT_EQ(run("simulate " + file + out + " --picture --colour speed").status, 0);
 }
 
+TEST_F(AdviceOfPrograms, DrawsTheTimesAskedForFromTheDirectionAskedFor) {
+  const std::string simulate = "simulate " + scene(R"("gravity": [0, 0, 0], "step": 0.001)") + " --out " +
+                               (folder_ / "out").string() + " --picture";
+  for (const auto& [wrong, said] :
+       {std::pair("--times 0.05,0.2", "--times 0.05,0.2: 0.2 is not a time of the run, from 0 to 0.1 s"),
+        {"--times -1", "--times -1: -1 is not a time of the run"},
+        {"--seen-from 0,0,0", "--seen-from: expected three finite numbers, not all 0"},
+        {"--seen-from 1,2", "--seen-from"}}) {
+    const Answer answer = run(simulate + " " + wrong);
+    EXPECT_EQ(answer.status, 2) << wrong;
+    EXPECT_NE(answer.out.find(said), std::string::npos) << answer.out;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+  ASSERT_EQ(run(simulate + " --times 0.05,0.01 --seen-from -1,0,0").status, 0);
+  const std::string script = text("out/picture.gnuplot");
+  EXPECT_NE(script.find("t = 0.01 s"), std::string::npos) << script;
+  EXPECT_NE(script.find("t = 0.05 s"), std::string::npos) << script;
+  EXPECT_EQ(script.find("t = 0 s"), std::string::npos) << script;
+}
+
 }  // namespace
 }  // namespace dartboard::advice_test

@@ -101,7 +101,7 @@ inline std::size_t predicted_integrator_bytes(std::string_view integrator, const
 
 /// Bytes of the matrices, the factor and the solver's vectors; 0 for an explicit method.
 inline std::size_t predicted_solver_bytes(std::string_view integrator, const SpringSystem& system) {
-  if (!make_integrator(integrator)->scheme().implicit) return 0;
+  if (!scheme_of(integrator).implicit) return 0;
   const bool scalar = integrator == "local-global";
   const ImplicitOptions options = scalar ? LocalGlobal::with_iterations(20) : ImplicitOptions{};
   const SystemCounts c = counts_of(system);
@@ -118,7 +118,7 @@ inline std::size_t predicted_solver_bytes(std::string_view integrator, const Spr
   if (!scalar) bytes += 3 * c.vertices * vector;  // conjugate gradients
   bytes += bytes_of(pattern.column_start, pattern.row) + capacity * (1 + rows) * sizeof(int);
   bytes += 3 * capacity * sizeof(double);  // the right-hand side
-  return bytes + sizeof(double) * Cholesky::predicted_nonzeros(pattern, rows, options.cholesky);
+  return bytes + sizeof(double) * Cholesky::forecast(pattern, rows, options.cholesky).numbers;
 }
 
 }  // namespace dartboard::memory

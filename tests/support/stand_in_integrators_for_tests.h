@@ -29,7 +29,7 @@ class LongerSteps : public Integrator {
 class LaggedVerlet : public Integrator {
  public:
   const Scheme& scheme() const override {
-    static const Scheme scheme = make_integrator("verlet")->scheme();
+    static const Scheme scheme = scheme_of("verlet");
     return scheme;
   }
   StepResult step(const SpringSystem& system, Motion motion, double h) override {

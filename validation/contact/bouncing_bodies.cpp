@@ -81,7 +81,7 @@ double mean_speed(const Simulation& simulation) {
 std::span<const BouncingBody> bouncing_bodies() { return bodies; }
 
 BounceFound bounce_body(const BouncingBody& body, std::string_view integrator, double restitution) {
-  const Scheme& scheme = make_integrator(integrator)->scheme();
+  const Scheme& scheme = scheme_of(integrator);
   BounceFound found{
       .body = body.name, .integrator = integrator, .order = scheme.one_step ? scheme.order : 1, .asked = restitution};
   Simulation thrown(scene_of(body, integrator, restitution, false));

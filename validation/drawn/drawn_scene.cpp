@@ -202,7 +202,7 @@ class SceneOfAllKeys {
     json_["duration"] = 0.0;
     Json bare = json_;
     // what an implicit method follows as well: the fastest oscillation
-    const bool is_implicit = make_integrator(json_["integrator"].get<std::string>())->scheme().implicit;
+    const bool is_implicit = scheme_of(json_["integrator"].get<std::string>()).implicit;
     if (is_implicit) {
       bare["integrator"] = "verlet";
       bare.erase("solver");

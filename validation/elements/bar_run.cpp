@@ -101,7 +101,7 @@ std::vector<BarMethod> bar_methods(BentBar& bar, const Beats& beats) {
   bar.restore();
   const StableStep limits = StableStepEstimate().refresh(bar.body().system(), bar.body().vertices().position);
   for (const char* name : {"symplectic-euler", "verlet", "blanes-moan-4", "rk4"}) {
-    const double longest = limits.safe_step(make_integrator(name)->scheme(), horizon_of(beats.period));
+    const double longest = limits.safe_step(scheme_of(name), horizon_of(beats.period));
     methods.push_back({name, in_beats(beats.period / longest)});
   }
   for (const char* name : {"implicit-midpoint", "ros2"}) methods.push_back({name, Beats::count});

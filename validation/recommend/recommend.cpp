@@ -137,7 +137,7 @@ class Search {
   bool has_time(Candidate& c) const {
     // where dampers are swept, the stable step of many stages takes a long look at amplification factors
     constexpr double long_look_s = 0.1;
-    const Scheme& scheme = make_integrator(c.contender)->scheme();
+    const Scheme& scheme = scheme_of(c.contender);
     const bool long_look =
         options_.budget_s > 0.0 && scheme.symplectic && scheme.stages > 1 && r_.features.damping_ratio > 0.0;
     if (pilots_->left_s() > left_for_others(c.implicit) + (long_look ? long_look_s : 0.0)) return true;

@@ -45,7 +45,7 @@ bool ends_at_all(const std::vector<double>& times, double h) {
 /// Above its first limit a method may be stable again where damping helps, but not for long where events change the
 /// damped parts: there a step stays a tenth below that limit. Scenes without events have no bound.
 double longest_undamped_step(const SceneFile& scene, const SceneFeatures& features) {
-  const Scheme& scheme = make_integrator(scene.integrator)->scheme();
+  const Scheme& scheme = scheme_of(scene.integrator);
   double longest = infinity;
   if (scene.events.empty() || scheme.implicit || !(scheme.imaginary_limit > 0.0)) return longest;
   for (const StableStep& step : features.limits) longest = std::min(longest, 0.9 * scheme.imaginary_limit / step.upper);

@@ -168,7 +168,7 @@ TradeoffScene make_tradeoff_scene(std::string_view name, const std::filesystem::
     throw InputError(fmt::format("there is no scene '{}' in the study; there are {}", name, known));
   }
   const std::string what(entry->what);
-  const auto liver = [&] { return read_mesh(meshes / "liver564.mesh").mesh; };
+  const auto liver = [&] { return read_mesh(meshes / "liver564.mesh"); };
   const auto made = [&]() -> TradeoffScene {
     if (name == "chain") return chain_scene(24, smooth_phase);
     if (name == "swing") return tradeoff_scene(what, swing_scene(liver()));

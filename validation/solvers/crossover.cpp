@@ -60,7 +60,7 @@ class Study {
     return reference::motion_errors(scene.motion, a.states, b.states).x;
   }
   double limit(const TradeoffScene& scene) const {
-    return make_integrator(explicit_method)->scheme().imaginary_limit / scene.fastest_rate;
+    return scheme_of(explicit_method).imaginary_limit / scene.fastest_rate;
   }
 
   /// Prediction from pilots at one stiffness; infinite seconds when they fail.
@@ -83,7 +83,7 @@ class Study {
       const Timed timed = run_well(at, method, 2.0 * pilot);
       const TimedRun& fine = timed.run;
       if (!coarse.result.ok() || !fine.result.ok()) continue;
-      const int order = make_integrator(method)->scheme().order;
+      const int order = scheme_of(method).order;
       const double error = distance(at, coarse, fine) / (std::exp2(order) - 1.0);
       Prediction p;
       p.method = method;
@@ -108,8 +108,7 @@ class Study {
       if (p.seconds < best.seconds) best = p;
     }
     best.explicit_step_s = 1e-9 * force_ns_ * median_of(explicit_step_);
-    best.phase = break_even_phase(make_integrator(explicit_method)->scheme().imaginary_limit, best.explicit_step_s,
-                                  best.seconds);
+    best.phase = break_even_phase(scheme_of(explicit_method).imaginary_limit, best.explicit_step_s, best.seconds);
     return best;
   }
 
@@ -131,7 +130,7 @@ class Study {
       double steps, error, seconds;
     };
     std::vector<Point> points;
-    const auto order = static_cast<double>(make_integrator(method)->scheme().order);
+    const auto order = static_cast<double>(scheme_of(method).order);
     double next = std::max(4.0, steps);
     for (int k = 0; k < 4; ++k) {
       const Timed implicit = run_well(at, method, next);

@@ -9,6 +9,7 @@
 #include "benchmarks/harness/table.h"
 #include "benchmarks/harness/tell.h"
 #include "core/base/counted.h"
+#include "core/scene/run/body_in_words.h"
 
 namespace dartboard {
 namespace {
@@ -79,8 +80,8 @@ std::string sleep_text(const SceneSleep& sleep) {
 }  // namespace
 
 std::string to_text(const SceneFile& scene, const ScenePlan& plan, const std::optional<MeasuredSteps>& measured) {
-  std::string text = fmt::format("{}\n{}; {}; {} of {:.6g} s\n", one_line(scene.name), plan.map, counts_of(plan),
-                                 counted(plan.steps, "step"), scene.step);
+  std::string text = fmt::format("{}\n{}; {}; {} of {:.6g} s\n", one_line(scene.name), map_in_words(plan.map),
+                                 counts_of(plan), counted(plan.steps, "step"), scene.step);
   for (const SelectionCount& count : plan.selections) text += to_string(count) + "\n";
   for (const std::string& remark : plan.remarks) text += remark + "\n";
   text += "\n";

@@ -88,11 +88,11 @@ Table summary_of(const SimulationReport& r) {
 
 std::string opening_of(const SceneFile& scene, const SceneSurvey& survey, const Simulation& simulation,
                        std::string_view step_in_words) {
-  std::string said =
-      fmt::format("{}\n{}, {}, h = {:.6g} s ({})\n{}: {}\n", one_line(scene.name), simulation.body().map_name(),
-                  scene.integrator, scene.step, step_in_words, in_words(survey.models), in_words(simulation.body()));
+  std::string said = fmt::format("{}\n{}, {}, h = {:.6g} s ({})\n{}: {}\n", one_line(scene.name),
+                                 map_in_words(simulation.body().map_name()), scene.integrator, scene.step,
+                                 step_in_words, in_words(survey.models), in_words(simulation.body()));
   for (const SelectionCount& count : survey.selections) said += to_string(count) + "\n";
-  if (!survey.cheaper.empty()) said += "note: " + survey.cheaper + "\n";
+  for (const std::string& note : survey.notes) said += "note: " + note + "\n";
   return said + "\n";
 }
 

@@ -240,7 +240,7 @@ void add_mesh(CLI::App& app, Outcome& outcome) {
   });
   info->callback([options, &outcome] {
     if (options->formats) return;  // refused by the verb
-    LoadedMesh loaded = read_mesh(options->file, {.weld = options->weld, .keep_crossed = true});
+    LoadedMesh loaded = read_mesh_file(options->file, {.weld = options->weld, .keep_crossed = true});
     const std::string hash = hash_of(loaded.mesh);
     const auto [summary, facts, touching] = examine(options->file, loaded);
     const auto json = to_json(options->file, loaded, summary, facts, touching, hash);

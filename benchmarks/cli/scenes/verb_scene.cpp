@@ -53,8 +53,8 @@ void check_scene(const std::string& given, bool as_json) {
                                 ? fmt::format("steps to be chosen for an accuracy of {:.6g}", *scene.accuracy)
                                 : fmt::format("{} of {:.6g} s", counted(simulation.step_count(), "step"), scene.step);
   tell("{}: {}, {} vertices, {} edges, {} faces, {} cells in {}; {}, {}\n", terminal_text(scene.file),
-       simulation.body().map_name(), n.vertices, n.edges, n.faces, n.cells, counted(n.components, "component"), steps,
-       counted(scene.events.size(), "event"));
+       map_in_words(simulation.body().map_name()), n.vertices, n.edges, n.faces, n.cells,
+       counted(n.components, "component"), steps, counted(scene.events.size(), "event"));
   tell("{}\n", in_words(simulation.body()));
   for (const SelectionCount& count : survey.selections) tell("{}\n", to_string(count));
   for (const std::string& warning : warnings) tell(stderr, "warning: {}\n", warning);
@@ -71,10 +71,11 @@ void add_scene(CLI::App& app, Outcome& outcome) {
   auto* verb = app.get_subcommand("scene");
   auto* what = verb->add_option_group("what");
   what->add_flag("--schema", options->schema, "print the JSON Schema of scene files");
-  auto* keys = what->add_option("--keys", options->object,
-                                "print the reference page of all keys, in Markdown, or its section about one object")
-                   ->expected(0, 1)
-                   ->type_name("[OBJECT]");
+  auto* keys =
+      what->add_option("--keys", options->object,
+                       "print the reference page of all keys, in Markdown, or what it says about one object or key")
+          ->expected(0, 1)
+          ->type_name("[NAME]");
   what->add_option("--check", options->check, "read and assemble a scene, and run nothing");
   what->require_option(1);
   verb->add_flag("--json", options->json, "print JSON; schemas are JSON anyway");

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -28,10 +29,10 @@
 #include "core/base/thread_team.h"
 #include "core/plain/error.h"
 #include "core/scene/file/scene_file.h"
+#include "core/scene/file/step_times.h"
 #include "core/scene/output/atomic_file.h"
 #include "core/scene/recorded_run.h"
 #include "core/scene/survey/scene_warnings.h"
-#include "core/time/integrators.h"
 
 namespace dartboard {
 namespace {
@@ -39,6 +40,7 @@ namespace {
 struct SimulateOptions {
   std::string scene, out, continued;
   std::string colour = "component";
+  std::vector<double> times, seen_from;
   bool json = false, quick = false, picture = false, film = false, replace = false;
   std::optional<std::uint64_t> steps, seed;
   unsigned threads = 0;
@@ -78,6 +80,29 @@ class Watcher : public RunWatcher {
   Progress& progress_;
   std::uint64_t steps_per_report_;
 };
+
+Eigen::Vector3d direction_of(const std::vector<double>& numbers) {
+  if (numbers.empty()) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d direction(numbers[0], numbers[1], numbers[2]);
+  if (!direction.allFinite() || direction.isZero(0.0))
+    throw CLI::ValidationError("--seen-from", "expected three finite numbers, not all 0");
+  return direction / direction.cwiseAbs().maxCoeff();
+}
+
+/// The first steps not before these times, ascending.
+std::vector<std::uint64_t> steps_of(const std::vector<double>& times, const RecordedRun& run) {
+  const double h = run.simulation().step(), end = h * static_cast<double>(run.simulation().step_count());
+  std::vector<std::uint64_t> steps;
+  for (const double time : times) {
+    if (!(time >= 0.0 && time <= end * (1 + 0x1p-50)))
+      throw InputError(
+          fmt::format("--times {}: {:g} is not a time of the run, from 0 to {:g} s", fmt::join(times, ","), time, end));
+    steps.push_back(step_of_time(time, h));
+  }
+  std::ranges::sort(steps);
+  steps.erase(std::ranges::unique(steps).begin(), steps.end());
+  return steps;
+}
 
 RecordedRun make_run(const SimulateOptions& options, const StepChoice& choose_step) {
   if (!options.continued.empty()) return RecordedRun::continued(options.continued, options.most_steps());
@@ -131,11 +156,15 @@ void simulate(const SimulateOptions& options, const StepChoice& choose_step, Out
   const Simulation& simulation = run.simulation();
   const std::string opening = opening_of(scene, run.survey(), simulation, step_in_words(simulation, scene));
   // in a continued run, too, pictures begin at its start, where nothing has been cut
-  const Look look = look_of(scene, colours_by_name.at(options.colour));
+  const Look look = look_of(scene, colours_by_name.at(options.colour), direction_of(options.seen_from));
   std::optional<Album> picture, film;
   std::vector<RunWatcher*> pictures;
-  if (options.picture) pictures.push_back(&picture.emplace(simulation, run.last_step(), 3, look));
-  if (options.film) pictures.push_back(&film.emplace(simulation, run.last_step(), most_film_pictures, look));
+  if (options.picture) {
+    auto steps = options.times.empty() ? even_steps(run.last_step(), 3) : steps_of(options.times, run);
+    pictures.push_back(&picture.emplace(simulation, std::move(steps), look));
+  }
+  if (options.film)
+    pictures.push_back(&film.emplace(simulation, even_steps(run.last_step(), most_film_pictures), look));
   // the folder comes last: a wrong scene leaves nothing behind
   nlohmann::json manifest;
   if (!options.continued.empty()) {
@@ -161,9 +190,8 @@ void simulate(const SimulateOptions& options, const StepChoice& choose_step, Out
   const auto wall = steady_wall_ns(), cpu = process_cpu_ns();
   {
     Progress progress("simulate", run.last_step() / steps_per_report, options.json);
-    // it takes seconds to minutes, during which the log would be silent
-    if (simulation.body().counts().vertices >= 10'000 && make_integrator(scene.integrator)->scheme().implicit)
-      progress.show("the first step, which factorises a matrix");
+    // a large one may take minutes, during which the log would be silent
+    if (simulation.body().counts().vertices >= 10'000) progress.show("the first step");
     Watcher watcher(pictures, progress, steps_per_report);
     const Interrupt interrupt;
     run.run(watcher);
@@ -236,11 +264,23 @@ void add_simulate(CLI::App& app, Outcome& outcome, StepChoice choose_step) {
           "--replace", options->replace,
           "remove the files of an earlier run from the folder of --out; nothing is removed if it holds any others")
       ->needs(out);
-  verb->add_flag("--picture", options->picture, "draw the body at four times of the run, into that folder");
+  verb->add_flag("--picture", options->picture,
+                 "draw the body at four times of the run, or at those of --times, into that folder");
   verb->add_flag(
       "--film", options->film,
       "draw the body as it moves, an animated GIF, into that folder: as fast as the motion, but 4 seconds at least "
       "and 12 at most");
+  auto* times = verb->add_option("--times", options->times, "the times [s] of the picture: 0,0.35,1 [four, evenly]")
+                    ->delimiter(',')
+                    ->type_name("T1,T2,..");
+  auto* seen_from =
+      verb->add_option(
+              "--seen-from", options->seen_from,
+              "the direction of the viewer, along the axes of the scene [0.45,-0.8,0.4]: 1,0,0 shows bodies from "
+              "where x is large, 0,0,1 from above")
+          ->delimiter(',')
+          ->expected(3)
+          ->type_name("X,Y,Z");
   auto* colour =
       verb->add_option("--colour", options->colour,
                        "colour the bodies of pictures and films by component, material, speed or (von Mises) stress "
@@ -255,12 +295,15 @@ void add_simulate(CLI::App& app, Outcome& outcome, StepChoice choose_step) {
   verb->add_flag("--quick", options->quick, "stop after 100 steps");
   verb->add_option("--seed", options->seed, "added to the seeds of random selections [0]")->excludes(continued);
   verb->add_flag("--json", options->json, "print JSON");
-  verb->callback([options, colour, choose_step = std::move(choose_step), &outcome] {
+  verb->callback([options, colour, times, seen_from, choose_step = std::move(choose_step), &outcome] {
     if (options->scene.empty() && options->continued.empty()) throw CLI::RequiredError("SCENE");
     if (options->out.empty() && options->continued.empty())
       for (const auto& [asked, name] : {std::pair(options->picture, "--picture"), {options->film, "--film"}})
         if (asked) throw CLI::RequiresError(name, "--out or --continue");
-    if (*colour && !options->picture && !options->film) throw CLI::RequiresError("--colour", "--picture or --film");
+    for (const CLI::Option* of_pictures : {colour, seen_from})
+      if (*of_pictures && !options->picture && !options->film)
+        throw CLI::RequiresError(of_pictures->get_name(), "--picture or --film");
+    if (*times && !options->picture) throw CLI::RequiresError("--times", "--picture");
     if (!options->replace && !options->out.empty() && is_run_folder(options->out))
       throw IoError(fmt::format(
           "{}: holds an earlier run; expected a new or empty folder for the results, or --replace", options->out));

@@ -37,7 +37,7 @@ void add_offset_claims(const ExtremesResults& results, std::vector<Claim>& claim
       const auto name = cell.at("integrator").get<std::string>();
       // explicit Euler is stable nowhere and amplifies rounding as everything else
       if (!cell.contains("offset_error") || name == "explicit-euler") continue;
-      if (make_integrator(name)->scheme().implicit != implicit) continue;
+      if (scheme_of(name).implicit != implicit) continue;
       ++count;
       const Json& found = cell.at("offset_error");
       const double error = found.is_number() ? found.get<double>() : std::numeric_limits<double>::infinity();

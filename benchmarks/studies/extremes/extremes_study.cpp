@@ -124,7 +124,7 @@ ExtremesResults measure(const ExtremesPlan& plan, StudyLog& log) {
   };
   if (begin(studies[0])) {
     results.limits = measure_stability_limits(quick);
-    const auto mesh = read_mesh(source_folder() / "benchmarks/meshes/liver564.mesh").mesh;
+    const auto mesh = read_mesh(source_folder() / "benchmarks/meshes/liver564.mesh");
     results.meshes = mesh_bodies("liver564", mesh, 200, 1);
     for (MeshBody& body : mesh_bodies("delaunay-250", delaunay_ball(250, 2), 200, 2))
       results.meshes.push_back(std::move(body));

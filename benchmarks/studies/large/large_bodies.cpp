@@ -177,7 +177,7 @@ void measure_files(const Frame& frame, const PartTimes& times) {
   const auto fewer = fs::file_size(other);
   fs::remove(other);
   times.take(compressed, packed, static_cast<double>(fewer), seconds_to_write(other, fewer));
-  times.take(read, seconds_of([&] { read_mesh(file); }), static_cast<double>(bytes), seconds_to_read(file));
+  times.take(read, seconds_of([&] { read_mesh_file(file); }), static_cast<double>(bytes), seconds_to_read(file));
 }
 
 /// Ends a run after its first step, and has the time of its end.

@@ -24,7 +24,7 @@ std::pair<ShownScene, BodyStrip> show(const std::filesystem::path& file) {
   settle_accuracy(shown.scene, thread_cpu_ns);
   Simulation simulation(shown.scene);
   const Look look = look_of(shown.scene);
-  Album album(simulation, simulation.step_count(), 3, look);
+  Album album(simulation, even_steps(simulation.step_count(), 3), look);
   const auto start = thread_cpu_ns();
   const RunResult result = run_scene(simulation, shown.scene.output, album);
   shown.cpu_s = static_cast<double>(thread_cpu_ns() - start) * 1e-9;

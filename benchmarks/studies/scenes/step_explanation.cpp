@@ -180,8 +180,8 @@ std::string step_text(double step) { return std::isfinite(step) ? fmt::format("{
 StepExplanation explain_step(SceneFile scene) {
   if (scene.has_contact())
     throw InputError(
-        fmt::format("{}: /contact: stiffens a body where it touches, which no spring is to blame for; "
-                    "expected none, or 'dartboard explain', which reports the longest stable step",
+        fmt::format("{}: /contact: a body that touches something is stiffer there, by no spring of its own; expected a "
+                    "scene without contact. 'dartboard explain' reports the longest stable step with it",
                     scene.file));
   scene.unstable_step = UnstableStep::warn;  // a refused step is the one to be explained
   const Simulation simulation(scene);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -11,9 +12,9 @@
 #include "benchmarks/harness/json_fields.h"
 #include "benchmarks/studies/step/scene_columns.h"
 #include "benchmarks/studies/step/step_bodies.h"
-#include "benchmarks/studies/topology/topology_tasks.h"
 #include "core/mechanics/adapt.h"
 #include "core/mechanics/cell_nodes.h"
+#include "core/mechanics/fracture/seam.h"
 #include "core/mechanics/numbering.h"
 #include "core/operations/dissociate_all.h"
 #include "core/operations/remove_volume.h"
@@ -33,16 +34,17 @@ constexpr std::size_t batches = 2'000;
 
 /// The faces between cells on different sides of planes, plane after plane. Each goes through a cell drawn at random.
 std::vector<Dart> faces_on_planes(const MassSpringBody<TetMap, Held::by_every_dart>& body, const Mesh& mesh,
-                                  const std::vector<Dart>& inner, SplitMix64& random) {
+                                  SplitMix64& random) {
   std::vector<Eigen::Vector3d> centre(mesh.cell_count(), Eigen::Vector3d::Zero());
   for (std::size_t c = 0; c < centre.size(); ++c)
     for (const std::uint32_t p : mesh.cell(c)) centre[c] += mesh.points[p] / 4.0;
   std::vector<Dart> faces;
   for (int k = 0; k < planes; ++k) {
     const Eigen::Vector3d at = centre[random.below(centre.size())], normal = random.next_in_ball();
-    const auto in_front = [&](Dart d) { return (centre[body.cell(body.map, d)] - at).dot(normal) >= 0.0; };
-    for (const Dart d : inner)
-      if (in_front(d) != in_front(body.map.alpha<3>(d))) faces.push_back(d);
+    const auto in_front = [&](std::uint32_t c) { return (centre[c] - at).dot(normal) >= 0.0; };
+    std::ranges::copy(
+        facets_between(body, [&](std::uint32_t a, std::uint32_t b) { return in_front(a) != in_front(b); }),
+        std::back_inserter(faces));
   }
   return faces;
 }
@@ -51,8 +53,8 @@ std::vector<Dart> faces_on_planes(const MassSpringBody<TetMap, Held::by_every_da
 std::vector<Dart> places_of_change(const MassSpringBody<TetMap, Held::by_every_dart>& body, const Mesh& mesh,
                                    const std::string& kind, std::uint64_t seed) {
   SplitMix64 random(seed);
-  std::vector<Dart> places = kind == random_removals ? body.cell_dart : inner_faces(body.map);
-  if (kind == planar_cuts) return faces_on_planes(body, mesh, places, random);
+  if (kind == planar_cuts) return faces_on_planes(body, mesh, random);
+  std::vector<Dart> places = kind == random_removals ? body.cell_dart : inner_facets(body.map);
   if (kind != random_removals && kind != random_faces)
     throw InputError(fmt::format("no kind of change is called '{}'", kind));
   shuffle(places, random);

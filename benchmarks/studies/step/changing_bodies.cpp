@@ -10,11 +10,11 @@
 #include "benchmarks/studies/step/kept_columns.h"
 #include "benchmarks/studies/step/scene_columns.h"
 #include "benchmarks/studies/step/step_bodies.h"
-#include "benchmarks/studies/topology/topology_tasks.h"
 #include "core/mechanics/adapt.h"
 #include "core/operations/dissociate_face.h"
 #include "core/scene/body/events/changing_body.h"
 #include "core/scene/body/simulated_body.h"
+#include "core/topology/facets.h"
 #include "core/topology/storage/hash.h"
 #include "core/views/spring_ends.h"
 #include "validation/contenders/contenders.h"
@@ -116,7 +116,7 @@ struct Subject {
       : problem(find_step_body(name, plan.seed).make()),
         body(std::make_shared<FollowingBody>(problem)),
         is_small(problem.mesh.cell_count() <= plan.most_made_anew) {
-    faces = inner_faces(body->body().map);
+    faces = inner_facets(body->body().map);
     SplitMix64 random(plan.seed);
     shuffle(faces, random);
     faces.resize(faces.size() / share_of_faces);

@@ -67,7 +67,7 @@ Problem box_problem(const Box& box, bool in_shuffled_order, std::uint64_t seed) 
 
 /// The mesh of a file, of so many tetrahedra at least, in the order of the file.
 Mesh mesh_of_file(const std::filesystem::path& file, std::size_t least) {
-  Mesh mesh = read_mesh(file).mesh;
+  Mesh mesh = read_mesh(file);
   if (mesh.dimension() != 3) throw InputError(fmt::format("{}: is a surface, expected tetrahedra", file.string()));
   try {
     mesh = finer_mesh_of(std::move(mesh), least);

@@ -17,6 +17,7 @@
 #include "core/topology/build.h"
 #include "core/topology/cells.h"
 #include "core/topology/check.h"
+#include "core/topology/facets.h"
 
 namespace dartboard {
 namespace {
@@ -82,20 +83,12 @@ struct Subject {
 
 }  // namespace
 
-std::vector<Dart> inner_faces(const TetMap& map) {
-  std::vector<Dart> faces;
-  for_each_cell<2>(map, [&](Face f) {
-    if (!map.is_free<3>(f.dart)) faces.push_back(f.dart);
-  });
-  return faces;
-}
-
 TopologyWork topology_work(Mesh mesh, std::uint64_t seed) {
   TopologyWork work;
   work.mesh = std::move(mesh);
   const TetMap map = build_map<TetMap>(work.mesh).map;
   for_each_cell<0>(map, [&](Vertex v) { work.vertices.push_back(v.dart); });
-  work.scattered = inner_faces(map);
+  work.scattered = inner_facets(map);
   work.cut = cut_faces(work.mesh, map, work.scattered);
   SplitMix64 random(seed);
   for (std::size_t left = work.scattered.size(); left > 1; --left)

@@ -14,9 +14,6 @@
 
 namespace dartboard {
 
-/// A dart of each face between two tetrahedra.
-std::vector<Dart> inner_faces(const TetMap& map);
-
 /// The faces to unsew: those between the two sides of an oblique plane through the middle, strip after strip, so that
 /// each is a neighbour of the last; and every twentieth face inside the body, drawn at random.
 TopologyWork topology_work(Mesh mesh, std::uint64_t seed);

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/studies/tradeoff/recommend_report.h"
 #include "core/scene/recorded_run.h"
+#include "core/scene/survey/scene_warnings.h"
 #include "validation/scenes/scene_of_file.h"
 
 namespace dartboard {
@@ -29,8 +29,8 @@ void say_warnings(const std::string& file, StudyLog& log) {
   SceneFile scene = read_scene(std::filesystem::path(file));
   if (scene.accuracy) return;  // it has no step yet
   const RecordedRun run(std::move(scene));
-  const std::size_t of_the_step = run.simulation().step_warning() ? 1 : 0;  // comes first
-  for (const std::string& warning : std::span(run.warnings()).subspan(of_the_step)) log.say("warning: " + warning);
+  for (const std::string& warning : warnings_but_of_step(run.scene(), run.survey(), run.simulation()))
+    log.say("warning: " + warning);
 }
 
 std::vector<Advice> advise(const TradeoffScene& scene, bool has_file, const RecommendPlan& plan, StudyLog& log,

@@ -10,7 +10,6 @@
 #include "core/mechanics/element_nodes.h"
 #include "core/places/border.h"
 #include "core/plain/error.h"
-#include "core/topology/cells.h"
 
 namespace dartboard {
 namespace {
@@ -18,21 +17,6 @@ namespace {
 template <class Map>
 using Body = MassSpringBody<Map, Held::by_every_dart>;
 using Numbers = boost::container::small_vector<std::uint32_t, 48>;
-
-// Calls f(lowest dart) for every facet that two cells share: interior faces of a solid, interior edges of a surface.
-template <class Map, class F>
-void for_each_interior_facet(const Map& map, F&& f) {
-  constexpr int n = Map::dimension;
-  if constexpr (Map::tetrahedral) {  // six darts to a face, which the lower of two tetrahedra reports
-    const auto end = static_cast<std::uint32_t>(map.capacity());
-    for (Dart d{0}; d.index < end; d.index += 6)
-      if (map.is_live(d) && map.template alpha<n>(d).index / 6 > d.index / 6) f(d);
-  } else {
-    for_each_cell<n - 1>(map, [&](Cell<n - 1> facet) {
-      if (!map.template is_free<n>(facet.dart)) f(facet.dart);
-    });
-  }
-}
 
 /// The numbers of the vertices of a cell, ascending, so that the order of the walk has no effect.
 template <int i, class Map>
@@ -69,12 +53,7 @@ std::vector<Dart> facets_on_plane(const Body<Map>& body, const Eigen::Vector3d& 
   std::vector<bool> in_front(body.cell_dart.size());
   for (std::size_t c = 0; c < in_front.size(); ++c)
     in_front[c] = is_in_front(middle<n>(body, body.cell_dart[c]), point, normal, thickness);
-  std::vector<Dart> seam;
-  for_each_interior_facet(body.map, [&](Dart d) {
-    const Dart opposite = body.map.template alpha<n>(d);
-    if (in_front[body.cell(body.map, d)] != in_front[body.cell(body.map, opposite)]) seam.push_back(d);
-  });
-  return seam;
+  return facets_between(body, [&](std::uint32_t a, std::uint32_t b) { return in_front[a] != in_front[b]; });
 }
 
 /// Does the segment from a to b cross the parallelogram at `corner` along u and w? Its border is part of it, so that
@@ -116,7 +95,7 @@ std::vector<Dart> facets_of_points(const Body<Map>& body, std::span<const std::a
 
   std::vector<bool> found(sorted.size(), false);
   std::vector<Dart> seam;
-  for_each_interior_facet(body.map, [&](Dart d) {
+  for_each_inner_facet(body.map, [&](Dart d) {
     Numbers points = vertices_of(body, Cell<n - 1>{d});
     for (std::uint32_t& p : points) p = body.vertices.point[p];
     points.erase(std::remove(points.begin(), points.end(), no_point), points.end());  // these have no mesh point
@@ -159,13 +138,9 @@ std::vector<Dart> facets_on_sweep(const Body<Map>& body, std::span<const Eigen::
   centre.reserve(body.cell_dart.size());
   for (const Dart d : body.cell_dart) centre.push_back(middle<n>(body, d));
   const double thickness = border_thickness(body.vertices.position);
-  std::vector<Dart> seam;
-  for_each_interior_facet(body.map, [&](Dart d) {
-    const Eigen::Vector3d &a = centre[body.cell(body.map, d)],
-                          &b = centre[body.cell(body.map, body.map.template alpha<n>(d))];
-    if (crosses_sweep(path, depth, a, b, thickness)) seam.push_back(d);
+  return facets_between(body, [&](std::uint32_t a, std::uint32_t b) {
+    return crosses_sweep(path, depth, centre[a], centre[b], thickness);
   });
-  return seam;
 }
 
 template <class Map>

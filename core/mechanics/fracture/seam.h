@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/mechanics/mass_spring_body.h"
+#include "core/topology/facets.h"
 
 namespace dartboard {
 
@@ -28,6 +29,18 @@ class FaceSet {
  private:
   std::vector<bool> in_;  // by slot<2>
 };
+
+/// The facets between two cells that are to come apart: one dart of each, its lowest, ascending. The program says of
+/// which cells that holds by their numbers, of the lower dart's cell first, as `[](std::uint32_t a, std::uint32_t b)`.
+template <class Map, class Apart>
+std::vector<Dart> facets_between(const MassSpringBody<Map, Held::by_every_dart>& body, Apart&& come_apart) {
+  std::vector<Dart> facets;
+  for_each_inner_facet(body.map, [&](Dart d) {
+    if (come_apart(body.cell(body.map, d), body.cell(body.map, body.map.template alpha<Map::dimension>(d))))
+      facets.push_back(d);
+  });
+  return facets;
+}
 
 /// The interior faces between cells on different sides of a plane: one dart of each, its lowest, ascending.
 ///

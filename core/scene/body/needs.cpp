@@ -72,7 +72,7 @@ Needs needs_of(const SceneFile& scene, const Problem& problem) {
           .gravity = !problem.surroundings.gravity.isZero(0.0),
           .cell_damping = std::ranges::any_of(problem.cell_materials().all(),
                                               [](const Material& m) { return m.damping_time != 0.0; }),
-          .solver = make_integrator(scene.integrator)->scheme().implicit,
+          .solver = scheme_of(scene.integrator).implicit,
           .refinement = has<Refine>(scene.events),
           .stress_watch = has<TearWhereStressed>(scene.events)};
 }

@@ -129,7 +129,7 @@ void name_all_vertices(SceneFile& scene, const Places& places) {
 
 std::pair<LoadedMesh, TouchingCells> read_and_split(const BodySource& body) {
   const auto& file = std::get<std::filesystem::path>(body.mesh);
-  LoadedMesh loaded = read_mesh(file, {.weld = body.weld});
+  LoadedMesh loaded = read_mesh_file(file, {.weld = body.weld});
   const std::size_t points = loaded.mesh.points.size();
   TouchingCells touching = split_touching_points(loaded.mesh);
   loaded.copied = touching.copied;

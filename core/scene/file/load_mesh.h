@@ -11,7 +11,7 @@ namespace dartboard {
 
 /// The mesh in the file of a body, with a point for each vertex of its map.
 ///
-/// throws  IoError and InputError as read_mesh; InputError, where the body says so, for cells that touch without
+/// throws  IoError and InputError as read_mesh_file; InputError, where the body says so, for cells that touch without
 ///         sharing a face
 LoadedMesh read_body_mesh(const BodySource& body);
 

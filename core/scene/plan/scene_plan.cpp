@@ -71,7 +71,7 @@ class Planner {
       if (count.just_outside > 0) plan_.remarks.push_back(near_miss(count));
     for (const StiffBody& body : survey.stiff_bodies) plan_.remarks.push_back(to_string(body));
     for (const Sag& sag : survey.sags) plan_.remarks.push_back(to_string(sag));
-    if (!survey.cheaper.empty()) plan_.remarks.push_back(survey.cheaper);
+    for (std::string& note : survey.notes) plan_.remarks.push_back(std::move(note));
     if (const std::string direction = direction_in_words(scene, problem.mesh); !direction.empty())
       plan_.remarks.push_back(direction);
   }
@@ -294,7 +294,7 @@ class Planner {
     SpringSystem alone = body_.system();
     alone.terms = body_.terms_but_contact(alone.terms);
     const StableStep limits = StableStepEstimate().refresh(alone, body_.vertices().position);
-    const Scheme& scheme = make_integrator(scene_.integrator)->scheme();
+    const Scheme& scheme = scheme_of(scene_.integrator);
     const Horizon horizon = horizon_of(scene_.duration);
     plan.body_rate = limits.upper;
     plan.contact_rate = contact_rate(alone, contacts, plan.expected.share());
@@ -437,7 +437,7 @@ class Planner {
 
 /// A step that has something to solve, if the integrator solves: the first from rest may have nothing.
 void take_step(Simulation& simulation, const SceneFile& scene) {
-  const bool solves = make_integrator(scene.integrator)->scheme().implicit;
+  const bool solves = scheme_of(scene.integrator).implicit;
   constexpr int most_steps = 32;
   for (int k = 0; k < most_steps && !simulation.advance(); ++k)
     if (!solves || simulation.work().solves > 0) break;

@@ -24,6 +24,10 @@ struct Span {
 
 }  // namespace
 
+std::string map_in_words(std::string_view map_name) {
+  return map_name == "no map" ? "no map is needed" : std::string(map_name);
+}
+
 std::string vertex_in_words(std::uint32_t number) {
   return number == no_point ? "a vertex that refinement made" : fmt::format("vertex {}", number);
 }

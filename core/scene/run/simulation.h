@@ -65,6 +65,8 @@ class Simulation {
   /// The limits of the step, found at the start or after the last event: only a quick bound, if the step is stable by
   /// that bound.
   const StableStep& stable_step() const { return guard_.limits(); }
+  /// Of each factor that its implicit steps will need, for the body as it is (Integrator).
+  std::optional<FactorForecast> factor_forecast() const { return integrator_->factor_forecast(body_->system()); }
   /// The longest stable step [s] for the body as it is now, which warnings, refusals and divided steps use; see
   /// StableStep::limit.
   /// cost  a close estimate: a hundred force evaluations

@@ -59,9 +59,11 @@ void StepGuard::examine(const SimulatedBody& body, const Scheme& scheme, std::ui
   }
   if (warning_) return;
   // contact limits the step if it contributes more than half of the squares that add up to that of the highest
-  // frequency
+  // frequency, and damping does not halve the step
   const double rate = rate_of_contact(body);
-  warning_ = StepWarning{n, stable_, parts_, rate * rate > 0.5 * limits_.upper * limits_.upper};
+  const bool by_contact = rate * rate > 0.5 * limits_.upper * limits_.upper &&
+                          limits_.undamped().safe_step(scheme, horizon_) < 2.0 * stable_;
+  warning_ = StepWarning{n, stable_, parts_, by_contact};
 }
 
 std::optional<StepRefusal> StepGuard::refusal(const Scheme& scheme, std::uint64_t n, double time) const {

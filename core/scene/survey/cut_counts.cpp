@@ -76,7 +76,8 @@ SelectionCount count_cut(const SceneEvent& event, const Mesh& mesh, std::size_t 
                                                                   : "edges between faces",
                        .selected = selected,
                        .all = all,
-                       .near = 10.0 * thickness};
+                       .near = 10.0 * thickness,
+                       .moves = !std::holds_alternative<FacetPoints>(cut.faces)};
   const auto* plane = std::get_if<PlaneSelection>(&cut.faces);
   if (plane != nullptr && cut.within)
     count.just_outside = just_outside(*plane, *cut.within, mesh, thickness, count.near);

@@ -22,8 +22,9 @@ bool is_held(const Problem& problem, std::size_t first, std::size_t end) {
 std::string to_string(const Sag& sag) {
   return fmt::format(
       "{}: its weight is expected to compress or stretch it by {:.2g} times its height of {:.3g} m; 'young' is in pascals "
-      "(N/m for a surface)",
-      sag.path, sag.strain, sag.height);
+      "(N/m for a surface){}",
+      sag.path, sag.strain, sag.height,
+      sag.is_as_in_file ? ", and a mesh in millimetres needs a 'scale' of 0.001" : "");
 }
 
 std::vector<Sag> find_sags(const SceneFile& scene, const Problem& problem) {
@@ -45,7 +46,8 @@ std::vector<Sag> find_sags(const SceneFile& scene, const Problem& problem) {
         extent_along(problem.surroundings.gravity / gravity,
                      std::span(problem.mesh.points).subspan(ranges.point[b], ranges.point[b + 1] - ranges.point[b]));
     const double strain = softness * gravity * height / 2.0;
-    if (strain > 1.0) found.push_back({bodies[b].path, height, strain});
+    if (strain > 1.0)
+      found.push_back({bodies[b].path, height, strain, bodies[b].loaded != nullptr && bodies[b].scale == 1.0});
   }
   return found;
 }

@@ -11,9 +11,10 @@ namespace dartboard {
 
 /// A body that cannot carry its weight: its height would change by more than itself.
 struct Sag {
-  std::string path;     // of the body: "/body", "/bodies/1"
-  double height = 0.0;  // [m] along gravity
-  double strain = 0.0;  // the change of the height over the height
+  std::string path;            // of the body: "/body", "/bodies/1"
+  double height = 0.0;         // [m] along gravity
+  double strain = 0.0;         // the change of the height over the height
+  bool is_as_in_file = false;  // its mesh is from a file and not scaled
 };
 /// "/body: its weight is expected to compress or stretch it by 98 times its height of 0.1 m; ..."
 std::string to_string(const Sag& sag);

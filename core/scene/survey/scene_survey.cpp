@@ -34,18 +34,33 @@ std::vector<SelectionCount> count_all(const SceneFile& scene, const Mesh& mesh, 
   return counts;
 }
 
+/// Another integrator for the same step, in a sentence; empty without one.
+///
 /// A method that damps cell by cell, there and back, evaluates the tangent of each twice in a step: 2.3 to 4.4 times
 /// the cost of a damped step of RK4 (tetrahedra and hexahedra, neo-Hookean and corotational).
 std::string cheaper_integrator(const SceneFile& scene, const CellMaterials& materials, const Simulation& simulation) {
-  const Scheme& scheme = make_integrator(scene.integrator)->scheme();
+  const Scheme& scheme = scheme_of(scene.integrator);
   const auto is_damped = [](const Material& m) { return m.model != Model::springs && m.damping_time > 0.0; };
   if (!scheme.sweeps || !scheme.symmetric || !std::ranges::any_of(materials.all(), is_damped)) return "";
-  const Scheme& other = make_integrator("rk4")->scheme();
+  const Scheme& other = scheme_of("rk4");
   if (simulation.step() > simulation.stable_step().limit(other, horizon_of(scene.duration)).stable) return "";
   return fmt::format(
       "{} goes through the damping of elements cell by cell, there and back; rk4 is stable at this step too, and takes it "
       "in less than half of the time",
       scene.integrator);
+}
+
+/// The size of the factor of implicit steps, where each takes a second or more; a body too small for that is not asked.
+std::string large_factor(const Simulation& simulation) {
+  constexpr std::size_t enough_vertices = 10'000;
+  if (simulation.body().counts().vertices < enough_vertices) return "";
+  const std::optional<FactorForecast> factor = simulation.factor_forecast();
+  if (!factor || factor->seconds < 1.0) return "";
+  const auto numbers = static_cast<double>(factor->numbers);
+  return fmt::format(
+      "an implicit step has {:.3g} thousand unknowns here: a factor of its matrix has {:.3g} million numbers ({:.2g} GB) "
+      "and takes some {:.2g} s each time that it is made",
+      1e-3 * static_cast<double>(factor->unknowns), 1e-6 * numbers, 8e-9 * numbers, factor->seconds);
 }
 
 }  // namespace
@@ -66,7 +81,8 @@ SceneSurvey survey_scene(const SceneFile& scene, const Problem& problem, const S
   }
   survey.stiff_bodies = find_stiff_bodies(scene, problem);
   survey.sags = find_sags(scene, problem);
-  survey.cheaper = cheaper_integrator(scene, materials, simulation);
+  for (std::string note : {cheaper_integrator(scene, materials, simulation), large_factor(simulation)})
+    if (!note.empty()) survey.notes.push_back(std::move(note));
   // steps too long and coordinates too large have warnings of their own
   const Preflight found = simulation.check_before_run();
   if (found.warns_of(StepCode::coordinate_precision)) survey.coarse_coordinate = simulation.find_coarse_coordinate();

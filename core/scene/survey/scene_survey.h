@@ -21,7 +21,7 @@ struct SceneSurvey {
   std::vector<StiffBody> stiff_bodies;     // expected to bend much less than they should
   std::vector<Sag> sags;                   // expected to change their height by more than itself
   std::string free_shapes;                 // a warning of free_shapes_of
-  std::string cheaper;                     // another integrator for the same step, in a sentence; empty without
+  std::vector<std::string> notes;          // what is not wrong and takes long: sentences
   std::optional<CoordinatePrecision> coarse_coordinate;
   // the other warnings of Simulation::check_before_run, with the numbers of vertices in the file. That a stable step
   // does not resolve the fastest motions is not one of them: it holds for most sound runs.

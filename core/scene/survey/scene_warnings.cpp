@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "core/time/integrators.h"
@@ -11,10 +13,16 @@
 namespace dartboard {
 namespace {
 
-std::string what_to_do_about(const StepWarning& warning, const SceneFile& scene) {
+std::string what_to_do_about(const StepWarning& warning, const SceneFile& scene, const Simulation& simulation) {
   if (warning.parts > 1) return "";
-  return fmt::format("; set {} to at most {:.3g}, \"unstable_step\" to \"substep\", or take an implicit integrator",
-                     scene.accuracy ? "'step' in place of /accuracy" : "/step", warning.stable);
+  std::string other = "an implicit integrator";
+  const StableStep& limits = simulation.stable_step();
+  const bool is_close = limits.lower > 0.0;
+  const Scheme& verlet = scheme_of("verlet");
+  if (const double step = limits.safe_step(verlet, horizon_of(scene.duration)); is_close && step > 2.0 * warning.stable)
+    other = fmt::format("verlet, whose step the damping does not limit: {:.3g} s is stable", step);
+  return fmt::format("; set {} to at most {:.3g}, \"unstable_step\" to \"substep\", or take {}",
+                     scene.accuracy ? "'step' in place of /accuracy" : "/step", warning.stable, other);
 }
 
 /// For tearing by stress: how far the stress is from the threshold.
@@ -31,7 +39,15 @@ std::string why_idle(const std::string& path, const SceneFile& scene, const Simu
 std::vector<std::string> warnings_of(const SceneFile& scene, const SceneSurvey& survey, const Simulation& simulation) {
   std::vector<std::string> said;
   if (const auto& warning = simulation.step_warning())
-    said.push_back(to_string(*warning, simulation.step(), scene.integrator) + what_to_do_about(*warning, scene));
+    said.push_back(to_string(*warning, simulation.step(), scene.integrator) +
+                   what_to_do_about(*warning, scene, simulation));
+  std::ranges::move(warnings_but_of_step(scene, survey, simulation), std::back_inserter(said));
+  return said;
+}
+
+std::vector<std::string> warnings_but_of_step(const SceneFile& scene, const SceneSurvey& survey,
+                                              const Simulation& simulation) {
+  std::vector<std::string> said;
   const auto& coarse = survey.coarse_coordinate ? survey.coarse_coordinate : simulation.coordinate_warning();
   if (coarse) said.push_back(to_string(*coarse) + " (/body/translate)");
   for (const StepResult& warning : survey.warnings) said.push_back(explained(warning));
@@ -55,7 +71,7 @@ std::vector<std::string> warnings_of(const SceneFile& scene, const SceneSurvey& 
 }
 
 std::string step_in_words(const Simulation& simulation, const SceneFile& scene) {
-  if (make_integrator(scene.integrator)->scheme().implicit)
+  if (scheme_of(scene.integrator).implicit)
     return fmt::format("motions faster than {:.3g} Hz are not resolved",
                        1.0 / (2.0 * std::numbers::pi * simulation.step()));
   // a close estimate takes a third of the start of a body of two million tetrahedra

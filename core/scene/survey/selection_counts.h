@@ -19,6 +19,7 @@ struct SelectionCount {
   std::size_t just_outside = 0;       // not selected, and nearer to its border than `near`
   double near = 0.0;                  // [m] ten times the thickness of borders
   std::string_view along{};  // "x", "y and z": the axes along which vertices are held; empty for other selections
+  bool moves = false;        // it is made later, where the body is then
 };
 /// "/fixed/0: 16 of 44 vertices"
 std::string to_string(const SelectionCount& count);

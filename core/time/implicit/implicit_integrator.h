@@ -31,6 +31,9 @@ class ImplicitIntegrator : public Integrator {
   bool undo_stopped_step() override { return stage_.solver().undo_step(work_); }
   std::size_t bytes() const override { return stage_.bytes() + end_.bytes(); }
   std::size_t solver_bytes() const override { return stage_.solver_bytes(); }
+  std::optional<FactorForecast> factor_forecast(const SpringSystem& system) const override {
+    return forecast_factor(system, options());
+  }
   const ImplicitOptions& options() const { return stage_.options(); }
 
  protected:

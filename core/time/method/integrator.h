@@ -1,7 +1,9 @@
 #pragma once
 // The one interface of all time integrators: a step, its outcome, and what the steps have cost.
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -70,6 +72,13 @@ struct WorkCounters {
   }
 };
 
+/// The factor of the matrix of an implicit step, foreseen from the pattern of the matrix.
+struct FactorForecast {
+  std::size_t unknowns = 0;
+  std::size_t numbers = 0;  // in the factor, 8 bytes each
+  double seconds = 0.0;     // of one factorisation, at the rates that were measured on one thread (FactorRates)
+};
+
 /// A time integration method with the memory it needs between steps.
 ///
 /// The system may change between steps (its columns in size or value) only if `restart` is called in between, except
@@ -106,6 +115,9 @@ class Integrator {
   virtual std::size_t bytes() const { return 0; }
   /// The share of `bytes` that matrices, a factor and the workspace of its solutions take.
   virtual std::size_t solver_bytes() const { return 0; }
+  /// Of each factor that steps of this system will need; none where the method or its solver needs none.
+  /// cost    an ordering and a symbolic analysis: a hundredth of a large factorisation
+  virtual std::optional<FactorForecast> factor_forecast(const SpringSystem&) const { return std::nullopt; }
 
   const WorkCounters& work() const { return work_; }
   void reset_work() { work_ = {}; }

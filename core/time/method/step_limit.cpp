@@ -75,6 +75,12 @@ Bounds StableStep::damping_ratio() const {
           (damping_time.upper * upper + viscous_rate.upper / std::max(lower, upper / 2)) / 2};
 }
 
+StableStep StableStep::undamped() const {
+  StableStep same = *this;
+  same.damping_time = same.viscous_rate = same.damping_rate = {};
+  return same;
+}
+
 double StableStep::highest_omega() const {
   const double beta = damping_time.lower, room = damping_rate.upper - viscous_rate.lower;
   if (!(beta > 0.0) || !(room >= 0.0)) return upper;

@@ -58,6 +58,9 @@ struct StableStep {
   /// Damping ratios at omega_max, as far as damping is that of Rayleigh: beta omega / 2 + alpha / (2 omega).
   Bounds damping_ratio() const;
 
+  /// The limits that the system would have without its damping.
+  StableStep undamped() const;
+
   /// [1/s] `upper`, or less where a known rate of damping implies it: d is beta (omega^2 - across^2) at least.
   double highest_omega() const;
 

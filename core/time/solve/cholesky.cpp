@@ -80,12 +80,14 @@ std::size_t Cholesky::bytes() const {
          (i.factored ? sizeof(double) * static_cast<std::size_t>(factor_nonzeros()) : 0);
 }
 
-std::size_t Cholesky::predicted_nonzeros(const NodePattern& pattern, std::size_t rows_per_node,
-                                         const CholeskyOptions& options) {
+FactorForecast Cholesky::forecast(const NodePattern& pattern, std::size_t rows_per_node,
+                                  const CholeskyOptions& options) {
   Implementation analysis(options);
   analysis.rows_per_node = rows_per_node;
   if (!analysis.analyse(pattern)) throw SolverError("a matrix could not be analysed");
-  return static_cast<std::size_t>(analysis.nonzeros);
+  return {.unknowns = rows_per_node * pattern.node_count(),
+          .numbers = static_cast<std::size_t>(analysis.nonzeros),
+          .seconds = analysis.factorisation_cost()};
 }
 
 SolveStatus Cholesky::solve_refined(const BlockMatrix& matrix, std::span<const Vector3d> b, std::span<Vector3d> x) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/base/archive.h"
+#include "core/time/method/integrator.h"
 #include "core/time/solve/step_matrix.h"
 #include "core/time/system/node_matrix.h"
 
@@ -147,11 +148,10 @@ class Cholesky {
   const CholeskyCounters& counters() const;
   /// Bytes of the numbers of L and of the columns kept with it; not the indices, copies and workspace of the library.
   std::size_t bytes() const;
-  /// How many numbers L will have, from the pattern alone: ordered and analysed, nothing factored. With one row for
-  /// each vertex, or three.
+  /// The factor that a pattern will have, ordered and analysed, nothing factored. With one row for each vertex, or
+  /// three.
   /// throws  SolverError where the library has not the memory for it
-  static std::size_t predicted_nonzeros(const NodePattern& pattern, std::size_t rows_per_node,
-                                        const CholeskyOptions& options);
+  static FactorForecast forecast(const NodePattern& pattern, std::size_t rows_per_node, const CholeskyOptions& options);
 
  private:
   struct Implementation;

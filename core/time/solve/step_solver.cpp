@@ -157,6 +157,12 @@ SolveStatus StepSolver::solve(std::span<const Vector3d> b, std::span<Vector3d> x
   return result.status;
 }
 
+std::optional<FactorForecast> forecast_factor(const SpringSystem& system, const ImplicitOptions& options) {
+  if (options.solver == LinearSolver::conjugate_gradients) return std::nullopt;
+  return Cholesky::forecast(node_pattern_of(system), options.solver == LinearSolver::laplacian ? 1 : 3,
+                            options.cholesky);
+}
+
 StepResult diagnosis_of(SolveStatus status, const StepSolver& solver) {
   switch (status) {
     case SolveStatus::ok: return {};

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -118,6 +119,10 @@ class StepSolver {
   };
   Before before_;
 };
+
+/// The factor that a solver with these options makes of the matrix of a step.
+/// throws  as Cholesky::forecast
+std::optional<FactorForecast> forecast_factor(const SpringSystem& system, const ImplicitOptions& options);
 
 /// The diagnosis of a solution that failed.
 StepResult diagnosis_of(SolveStatus status, const StepSolver& solver);

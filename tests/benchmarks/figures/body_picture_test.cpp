@@ -388,6 +388,16 @@ TEST(PictureView, ShowsUpwardsWhatIsUp) {
   EXPECT_EQ(turned.light(), upright.light());
 }
 
+// To the right, upwards, towards the viewer: exact along the axes.
+TEST(PictureView, IsFromTheDirectionAskedFor) {
+  const PictureView from_x({0, 0, 1}, {2, 0, 0}), from_above({0, 0, 1}, {0, 0, 5}), with_y_up({0, 1, 0}, {0, 0, 1});
+  EXPECT_EQ(from_x.seen({1, 2, 3}), Vector3d(2, 3, 1));
+  EXPECT_EQ(from_above.seen({1, 2, 3}), Vector3d(1, 2, 3));
+  EXPECT_EQ(with_y_up.seen({1, 2, 3}), Vector3d(1, 2, 3));
+  EXPECT_EQ(PictureView({0, 1, 0}, {0, 1, 0}).seen({1, 2, 3}), Vector3d(-1, 3, 2));
+  EXPECT_EQ(from_x.light(), PictureView().light());
+}
+
 TEST(PictureView, ShowsZUpwardsWhereThereIsNoUp) {
   const Vector3d x(0.1, 0.2, 0.3);
   for (const Vector3d& up : {Vector3d(0, 0, 9.81), Vector3d(0, 0, 0)})

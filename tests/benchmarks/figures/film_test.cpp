@@ -18,7 +18,7 @@ using moving::moving_box;
 
 std::vector<BodyPanel> film_of(const Json& scene, std::uint64_t steps) {
   Simulation simulation(moving::parse(scene));
-  Album film(simulation, steps, most_film_pictures, {});
+  Album film(simulation, even_steps(steps, most_film_pictures), {});
   for (std::uint64_t k = 0; k < steps; ++k) {
     EXPECT_FALSE(simulation.advance());
     film.stepped(simulation);
@@ -52,23 +52,34 @@ TEST(Film, EndsWithTheLastGoodStateOfAMotionThatDiverges) {
   scene["step"] = 0.2;  // beyond the stable one: the second step diverges
   scene["duration"] = 20;
   Simulation simulation(moving::parse(scene));
-  Album film(simulation, 100, most_film_pictures, {});
+  Album film(simulation, even_steps(100, most_film_pictures), {});
   while (!simulation.advance()) film.stepped(simulation);
   ASSERT_GT(film.panels().back().time, simulation.time());  // the simulation was taken back
   film.ended(simulation);
   EXPECT_EQ(film.panels().back().time, simulation.time());
 }
 
-TEST(Album, OfThreePicturesHasTheFirstStepsAfterEachThirdOfTheRun) {
+std::vector<double> times_of(const std::vector<std::uint64_t>& steps, int taken) {
   Simulation simulation(moving::parse(moving_box()));
-  Album album(simulation, 10, 3, {});
-  for (int k = 0; k < 10; ++k) {
+  Album album(simulation, steps, {});
+  for (int k = 0; k < taken; ++k) {
     EXPECT_FALSE(simulation.advance());
     album.stepped(simulation);
   }
+  album.ended(simulation);
   std::vector<double> times;
   for (const BodyPanel& panel : album.panels()) times.push_back(panel.time);
-  EXPECT_EQ(times, (std::vector{0.0, 0.004, 0.007, 0.01}));
+  return times;
+}
+
+TEST(Album, OfThreePicturesHasTheFirstStepsAfterEachThirdOfTheRun) {
+  EXPECT_EQ(times_of(even_steps(10, 3), 10), (std::vector{0.0, 0.004, 0.007, 0.01}));
+}
+
+TEST(Album, HasTheStepsAskedForAndTheLastOfARunThatEndsBeforeThem) {
+  EXPECT_EQ(times_of({2, 5}, 10), (std::vector{0.002, 0.005}));
+  EXPECT_EQ(times_of({2, 5}, 4), (std::vector{0.002, 0.004}));
+  EXPECT_EQ(times_of({0, 5}, 5), (std::vector{0.0, 0.005}));
 }
 
 /// Data of a GIF file (specification, version 89a): the delay before each picture in hundredths of a second.

@@ -152,7 +152,7 @@ TEST(ScenePicture, OfASceneShowsItsObstaclesAndItsGravityDownwards) {
                                "normal": [0, 1, 0]}}]})");
   const Look look = look_of(moving::parse(scene));
   ASSERT_EQ(look.obstacles.size(), 1u);
-  EXPECT_EQ(look.up, Vector3d(0, 5, 0));
+  EXPECT_EQ(look.view.seen({1, 2, 3}), PictureView({0, 5, 0}).seen({1, 2, 3}));
   const Simulation simulation(moving::parse(scene));
   const auto panel = panel_of(simulation, look);
   const Drawing drawing = drawing_of(std::span(&panel, 1), look, 0.1);
@@ -165,7 +165,7 @@ TEST(ScenePicture, ColoursFacetsByTheMeanOfTheirCornersInOneScaleForAllTimes) {
   for (const ColourBy by : {ColourBy::speed, ColourBy::stress}) {
     const Look look{.colour = by};
     Simulation simulation(moving::parse(moving_box()));
-    Album album(simulation, 10, 10, look);
+    Album album(simulation, even_steps(10, 10), look);
     double largest = 0.0;
     for (int k = 0; k < 10; ++k) {
       ASSERT_FALSE(simulation.advance());

@@ -29,7 +29,7 @@ class MeshIo : public testing::Test {
   }
   std::string refused(const fs::path& path) const {
     try {
-      read_mesh(path);
+      read_mesh_file(path);
     } catch (const IoError& error) {
       return error.what();
     }
@@ -41,17 +41,17 @@ class MeshIo : public testing::Test {
 };
 
 TEST_F(MeshIo, TellsTheFormatByTheExtension) {
-  expect_two_tetrahedra(read_mesh(write("a.mesh", medit)));
-  expect_two_tetrahedra(read_mesh(write("a.msh", gmsh4)));
-  expect_two_tetrahedra(read_mesh(write("a.VTK", vtk4)));
-  expect_two_tetrahedra(read_mesh(write("a.vtu", vtu_base64)));
+  expect_two_tetrahedra(read_mesh_file(write("a.mesh", medit)));
+  expect_two_tetrahedra(read_mesh_file(write("a.msh", gmsh4)));
+  expect_two_tetrahedra(read_mesh_file(write("a.VTK", vtk4)));
+  expect_two_tetrahedra(read_mesh_file(write("a.vtu", vtu_base64)));
 }
 
 TEST_F(MeshIo, FindsTheSecondFileOfTetGenFromEitherOneOrTheStem) {
   const fs::path node = write("two.1.node", tetgen_node), ele = write("two.1.ele", tetgen_ele);
-  expect_two_tetrahedra(read_mesh(node));
-  expect_two_tetrahedra(read_mesh(ele));
-  expect_two_tetrahedra(read_mesh(folder_ / "two.1"));
+  expect_two_tetrahedra(read_mesh_file(node));
+  expect_two_tetrahedra(read_mesh_file(ele));
+  expect_two_tetrahedra(read_mesh_file(folder_ / "two.1"));
   fs::remove(ele);
   EXPECT_EQ(refused(node),
             ele.string() + ": there is no such file; expected the TetGen cells that belong to the .node file");
@@ -100,7 +100,7 @@ TEST_F(MeshIo, WritesMeditThatReadsBackWithTheSameBits) {
   Mesh mesh = parse_mesh(gmsh2, MeshFormat::gmsh, "file").mesh;
   for (auto& x : mesh.points) x = x * 0.1 + Eigen::Vector3d(1.0 / 3.0, 1e-17, -2.0 / 7.0);
   write_medit(folder_ / "a.mesh", mesh);
-  const Mesh again = read_mesh(folder_ / "a.mesh").mesh;
+  const Mesh again = read_mesh(folder_ / "a.mesh");
   EXPECT_EQ(again.points, mesh.points);
   EXPECT_EQ(again.kinds, mesh.kinds);
   EXPECT_EQ(again.nodes, mesh.nodes);

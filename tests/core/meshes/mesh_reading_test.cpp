@@ -191,7 +191,7 @@ TEST_F(MeshFiles, OfTetGenHaveNoMorePointsThanTheyAnnounce) {
   std::ofstream(folder_ / "a.node") << tetgen_node << "5 2 2 2 0.5 1\n";
   std::ofstream(folder_ / "a.ele") << tetgen_ele;
   try {
-    read_mesh(folder_ / "a.node");
+    read_mesh_file(folder_ / "a.node");
     FAIL();
   } catch (const IoError& error) {
     expect_part(error.what(), "'5' follows the last point");
@@ -202,13 +202,13 @@ TEST_F(MeshFiles, MayEndTheirLinesInCarriageReturnsAlone) {
   std::string text(medit);
   std::ranges::replace(text, '\n', '\r');
   std::ofstream(folder_ / "a.mesh") << "# a comment\r" << text;
-  expect_two_tetrahedra(read_mesh(folder_ / "a.mesh"));
+  expect_two_tetrahedra(read_mesh_file(folder_ / "a.mesh"));
   std::string points(tetgen_node), cells(tetgen_ele);
   std::ranges::replace(points, '\n', '\r');
   std::ranges::replace(cells, '\n', '\r');
   std::ofstream(folder_ / "b.node") << points;
   std::ofstream(folder_ / "b.ele") << cells;
-  expect_two_tetrahedra(read_mesh(folder_ / "b.node"));
+  expect_two_tetrahedra(read_mesh_file(folder_ / "b.node"));
 }
 
 TEST_F(MeshFiles, AreNamedAsWhatStandsInTheirPlace) {
@@ -231,7 +231,7 @@ TEST_F(MeshFiles, AreNamedAsWhatStandsInTheirPlace) {
       const auto path = folder_ / (std::string("a") + extension);
       std::ofstream(path, std::ios::binary) << text;
       try {
-        read_mesh(path);
+        read_mesh_file(path);
         FAIL();
       } catch (const IoError& error) {
         expect_part(error.what(), path.string() + ": " + std::string(is) + "; expected ");
@@ -256,7 +256,7 @@ TEST_F(MeshFiles, OfEveryKindOfCellReadBackAsTheyWereWritten) {
                            quad_sheet(2, 2, 1.0), kuhn_box(1, 1, 1, 1.0)}) {
     const auto path = folder_ / (std::to_string(number++) + ".mesh");
     write_medit(path, mesh);
-    const LoadedMesh again = read_mesh(path);
+    const LoadedMesh again = read_mesh_file(path);
     EXPECT_TRUE(again.notices.empty());
     EXPECT_EQ(again.mesh.points, mesh.points);
     EXPECT_EQ(cells(again.mesh), cells(mesh));

@@ -154,7 +154,7 @@ TEST(BodyContactMotion, IsTakenByEveryIntegratorButThatOfDiscreteGradients) {
     }
     for (int k = 0; k < 512; ++k) ASSERT_TRUE(twice.step(0.3 / 512).ok()) << entry.name;
     const double first = distance(once, truth), second = distance(twice, truth);
-    if (make_integrator(entry.name)->scheme().order == 1) {
+    if (scheme_of(entry.name).order == 1) {
       EXPECT_LE(second, first / 1.6) << entry.name << ' ' << first;
       EXPECT_LE(first, 1e-3) << entry.name;
     } else {

@@ -185,7 +185,7 @@ TEST(ContactMotion, IsTakenByEveryIntegrator) {
     ASSERT_TRUE(result.ok()) << entry.name << ": " << to_string(result);
     ASSERT_TRUE(fine.run(entry.name, duration, 2 * steps).ok()) << entry.name;
     const double first = distance(coarse, truth), second = distance(fine, truth);
-    const int order = std::min(make_integrator(entry.name)->scheme().order, 3);
+    const int order = std::min(scheme_of(entry.name).order, 3);
     EXPECT_LE(second, first / (order == 1 ? 1.6 : 3.0) + 1e-10) << entry.name << ' ' << first;
     EXPECT_LE(first, order == 1 ? 3e-3 : 2e-5) << entry.name;
   }

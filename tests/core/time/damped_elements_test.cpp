@@ -187,7 +187,7 @@ TEST(DampedElements, KeepTheOrderOfEveryIntegrator) {
   const ElementBody truth = run(bar(Model::neo_hookean, damping_time, true), "rk4", duration, 8192).body;
   EXPECT_GT(distance(truth, run(bar(Model::neo_hookean, 0.0, true), "rk4", duration, 8192).body), 1e-4);
   for (const IntegratorEntry& entry : integrators()) {
-    const Scheme& scheme = make_integrator(entry.name)->scheme();
+    const Scheme& scheme = scheme_of(entry.name);
     if (scheme.compensated || std::string(entry.name) == "local-global") continue;  // as ElementMotion has it
     const int coarse = scheme.order == 4 ? 64 : scheme.order == 5 ? 32 : 512;
     const BarOutcome first = run(bar(Model::neo_hookean, damping_time, true), entry.name, duration, coarse),
@@ -348,7 +348,7 @@ TEST(DampedElements, AreStableBelowTheirLimitAndFoundOutAbove) {
       for (Vector3d& v : body.v) v = Vector3d(1e-6, 0, 0);
       body.shake(1e-7, 2);
       const std::vector<Vector3d> x = body.x, v = body.v;
-      const Scheme& scheme = make_integrator(integrator)->scheme();
+      const Scheme& scheme = scheme_of(integrator);
       const StepLimit limit = StableStepEstimate().refresh(body.system(), body.rest).limit(scheme, horizon_of(1.0));
       ASSERT_GT(limit.stable, 0.0);
       EXPECT_LT(limit.unstable, 1.15 * limit.stable) << integrator << ", " << damping_time;

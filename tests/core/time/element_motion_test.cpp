@@ -130,8 +130,7 @@ TEST(ElementMotion, IsStableBelowItsLimitAndFoundOutAbove) {
     ElementBody body(kuhn_box(3, 1, 2, 0.1, 0.15, 5), model, 2e4, 0.3);
     for (Vector3d& v : body.v) v = Vector3d(1e-6, 0, 0);
     body.shake(1e-7, 2);
-    const double limit =
-        StableStepEstimate().refresh(body.system(), body.x).limit(make_integrator("verlet")->scheme()).stable;
+    const double limit = StableStepEstimate().refresh(body.system(), body.x).limit(scheme_of("verlet")).stable;
     for (const double factor : {0.98, 1.08}) {
       ElementBody moving(kuhn_box(3, 1, 2, 0.1, 0.15, 5), model, 2e4, 0.3);
       moving.x = body.x;

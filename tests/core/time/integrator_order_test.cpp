@@ -92,7 +92,7 @@ const SpringArrays& witness(bool damped, Event event) {
 
 void expect_order(const Case& c, bool damped, Event event) {
   const SpringArrays& exact = witness(damped, event);
-  const int order = make_integrator(c.name)->scheme().order;
+  const int order = scheme_of(c.name).order;
   double x = 0, v = 0;
   for (int halving = 0; halving < 4; ++halving) {
     const SpringArrays end = simulate(c.name, damped, c.steps << halving, event);

@@ -51,7 +51,7 @@ bool same_bits(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
 TEST(Integrators, AreMadeByTheNamesOfTheirSchemes) {
   std::set<std::string_view> names;
   for (const IntegratorEntry& entry : integrators()) {
-    EXPECT_EQ(make_integrator(entry.name)->scheme().name, entry.name);
+    EXPECT_EQ(scheme_of(entry.name).name, entry.name);
     EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
     EXPECT_FALSE(entry.make()->scheme().what.empty());
     EXPECT_FALSE(entry.make()->scheme().source.empty());

@@ -118,8 +118,7 @@ TEST(Pull, ThatIsNoNumberIsNamedBeforeARun) {
   Hanging one(true);
   one.pull[2].y() = std::numeric_limits<double>::quiet_NaN();
   const StableStep limits = StableStepEstimate().refresh(one.system(), one.body.x);
-  const Preflight found =
-      check_before_run(one.system(), one.body.motion(), make_integrator("rk4")->scheme(), 1e-3, limits);
+  const Preflight found = check_before_run(one.system(), one.body.motion(), scheme_of("rk4"), 1e-3, limits);
   EXPECT_EQ(found.refused.code, StepCode::nonfinite);
   EXPECT_EQ(found.refused.number, 2u);
   EXPECT_EQ(found.refused.quantity, "force");

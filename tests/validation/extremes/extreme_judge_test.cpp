@@ -154,13 +154,13 @@ TEST(OffsetObservation, AsksForAWarningWhereARoundingIsAMillionthOfAnEdge) {
 
 TEST(UnstableByTheory, IsAStepAPercentBeyondTheLimitOfWhatNothingDamps) {
   const Horizon horizon{.steps = 100, .gain = 2.0};
-  const Scheme& verlet = make_integrator("verlet")->scheme();
+  const Scheme& verlet = scheme_of("verlet");
   StableStep limits;
   limits.lower = limits.upper = 10.0;
   const double limit = stable_limit(verlet, 0.0, horizon.steps, horizon.gain) / 10.0;
   EXPECT_FALSE(is_unstable_by_theory(verlet, limits, 1.005 * limit, horizon));
   EXPECT_TRUE(is_unstable_by_theory(verlet, limits, 1.02 * limit, horizon));
-  EXPECT_FALSE(is_unstable_by_theory(make_integrator("backward-euler")->scheme(), limits, 1e3 * limit, horizon));
+  EXPECT_FALSE(is_unstable_by_theory(scheme_of("backward-euler"), limits, 1e3 * limit, horizon));
   limits.damping_time.upper = 1e-3;
   EXPECT_FALSE(is_unstable_by_theory(verlet, limits, 1.02 * limit, horizon));
 }

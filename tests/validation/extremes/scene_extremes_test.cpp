@@ -97,7 +97,7 @@ TEST(SceneExtremes, EveryWrongIntegratorIsSeen) {
 
 TEST(SceneExtremes, UnstableStepsOfExplicitMethodsAreStopped) {
   for (const ExtremeCell& cell : run(scene_extreme_cases(scene_of(springs), true), "h omega 30"))
-    EXPECT_TRUE(make_integrator(cell.integrator)->scheme().implicit || cell.outcome == ExtremeOutcome::diagnosed)
+    EXPECT_TRUE(scheme_of(cell.integrator).implicit || cell.outcome == ExtremeOutcome::diagnosed)
         << cell.integrator << " " << cell.note;
 }
 

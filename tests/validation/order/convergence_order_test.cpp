@@ -140,7 +140,7 @@ TEST(ConvergenceOrder, IsThatOfTheScheme) {
       const OrderStudy study = study_order(stage(which), entry(integrator));
       EXPECT_TRUE(study.holds) << integrator << ", " << name(which) << ": " << study.reason << ", " << study.p_x << ", "
                                << study.p_v;
-      EXPECT_EQ(study.theory, make_integrator(integrator)->scheme().order);
+      EXPECT_EQ(study.theory, scheme_of(integrator).order);
     }
 }
 

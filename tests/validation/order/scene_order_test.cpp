@@ -151,7 +151,7 @@ TEST_P(OrderOnScene, IsThatOfTheScheme) {
   for (const char* integrator : {"verlet", "rk4", "implicit-midpoint"}) {
     const SceneOrder found = observe_order(scene, reference, entry(integrator), no_clock);
     EXPECT_EQ(found.answer, OrderAnswer::shown) << integrator << ": " << found.study.reason;
-    EXPECT_EQ(found.study.theory, make_integrator(integrator)->scheme().order);
+    EXPECT_EQ(found.study.theory, scheme_of(integrator).order);
   }
 }
 

@@ -49,10 +49,10 @@ TEST(OrderLimit, IsTwoUnderLoadsThatChangeInTimeAndOneForTheMethodOfTwoSteps) {
   json["forces"] = Json::parse(R"([{"ids": [0], "force": [1, 0, 0], "over_time": [{"at": 0, "factor": 2}]}])");
   const OrderLimit found = order_limit(parse(json));
   EXPECT_EQ(found.because, "loads that change in time");
-  EXPECT_EQ(found.of(make_integrator("rk4")->scheme()), 2.0);
-  EXPECT_EQ(found.of(make_integrator("explicit-euler")->scheme()), 1.0);
-  EXPECT_EQ(found.of(make_integrator("bdf2")->scheme()), 1.0);
-  EXPECT_EQ(order_limit(parse(moving_box())).of(make_integrator("bdf2")->scheme()), 2.0);
+  EXPECT_EQ(found.of(scheme_of("rk4")), 2.0);
+  EXPECT_EQ(found.of(scheme_of("explicit-euler")), 1.0);
+  EXPECT_EQ(found.of(scheme_of("bdf2")), 1.0);
+  EXPECT_EQ(order_limit(parse(moving_box())).of(scheme_of("bdf2")), 2.0);
 }
 
 TEST(OrderLimit, IsTwoForTheMethodOfTwoStepsTooWhereVerticesAreDrivenOverTime) {
@@ -63,8 +63,8 @@ TEST(OrderLimit, IsTwoForTheMethodOfTwoStepsTooWhereVerticesAreDrivenOverTime) {
     json["driven"] = Json::parse(std::string(R"([{"ids": [0], )") + drive + "}]");
     const OrderLimit found = order_limit(parse(json));
     EXPECT_EQ(found.because, "loads that change in time");
-    EXPECT_EQ(found.of(make_integrator("bdf2")->scheme()), 2.0) << drive;
-    EXPECT_EQ(found.of(make_integrator("rk4")->scheme()), 2.0) << drive;
+    EXPECT_EQ(found.of(scheme_of("bdf2")), 2.0) << drive;
+    EXPECT_EQ(found.of(scheme_of("rk4")), 2.0) << drive;
   }
 }
 

@@ -62,7 +62,7 @@ TEST(SceneFeatures, OfFreePointsHaveTheRateOfTheScene) {
 }
 
 TEST(StabilityLimit, IsTheLeastOfTheLimitsBeforeAndAfterEvents) {
-  const Scheme& verlet = make_integrator("verlet")->scheme();
+  const Scheme& verlet = scheme_of("verlet");
   SceneFeatures soft = of_a_chain(0.0);
   ASSERT_EQ(soft.limits.size(), 1u);
   const double limit = stability_limit(verlet, soft, 1.0);

@@ -25,7 +25,7 @@ TradeoffScene box_cut_at(double time) {
 class Recorder : public Integrator {
  public:
   const Scheme& scheme() const override {
-    static const Scheme scheme = make_integrator("verlet")->scheme();
+    static const Scheme scheme = scheme_of("verlet");
     return scheme;
   }
   StepResult step(const SpringSystem& system, Motion, double h) override {

@@ -100,18 +100,18 @@ TradeoffScene two_points() {
 TEST(RoundingFloorJudge, IsARandomWalkOfTheRoundingsOfPositions) {
   const double one = 0x1p-53 * std::sqrt(17.0) / 2.0;
   for (const auto& [name, roundings] : {std::pair("rk4", 1.0), {"backward-euler", 1.0}, {"verlet", 1.0}}) {
-    const Scheme& scheme = make_integrator(name)->scheme();
+    const Scheme& scheme = scheme_of(name);
     const double a_step = scheme.symplectic && !scheme.implicit ? scheme.stages : roundings;
     EXPECT_NEAR(rounding_floor(two_points(), scheme).at(1e-4) / (1.5 * one * std::sqrt(a_step * 4e4)), 1.0, 1e-12)
         << name;
   }
-  const Scheme& compensated = make_integrator("verlet-compensated")->scheme();
+  const Scheme& compensated = scheme_of("verlet-compensated");
   EXPECT_NEAR(rounding_floor(two_points(), compensated).at(1e-4) / (4 * one), 1.0, 1e-12);
 }
 
 // A free body that flies 4 s at 10 m/s is 40 m farther out; a fixed one is not.
 TEST(RoundingFloorJudge, CountsTheWayOfTheCentreOfMass) {
-  const Scheme& rk4 = make_integrator("rk4")->scheme();
+  const Scheme& rk4 = scheme_of("rk4");
   TradeoffScene flying = two_points();
   for (auto& v : flying.motion.start.v) v = {0, 10, 0};
   const double still = rounding_floor(two_points(), rk4).factor;

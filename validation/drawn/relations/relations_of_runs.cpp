@@ -86,7 +86,7 @@ RelationFound judge_frames(const JudgedScene& s) {
   const std::vector<double>&places = last_named(s.motion(), "positions").values,
         &corners = last_named(s.motion(), "corners").values;
   if (corners.empty()) return does_not_apply("nothing is left of it");
-  const Mesh read = read_mesh(*frame, {.keep_crossed = true}).mesh;
+  const Mesh read = read_mesh(*frame, {.keep_crossed = true});
   const auto is_same = [](double number, const double& coordinate) { return number == coordinate; };
   const std::span<const double> read_places(read.points.empty() ? nullptr : read.points[0].data(),
                                             3 * read.points.size());

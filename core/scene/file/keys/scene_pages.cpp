@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "core/plain/error.h"
@@ -117,19 +118,40 @@ std::string rule_text(const SceneRule& rule) {
   return fmt::format("'{}' stands without {}", first, quoted_list(names, ", "));
 }
 
+std::string row_of(const SceneKey& key) {
+  const std::string standard = key.required           ? "required"
+                               : key.standard.empty() ? "-"
+                                                      : fmt::format("`{}`", key.standard);
+  return fmt::format("| `{}` | {} | {} | {} |\n", key.name, expectation(key), standard, key.help);
+}
+
+bool may_be_object(const SceneKey& key) {
+  return key.type == ValueType::object || key.type == ValueType::objects || key.type == ValueType::point_or_object ||
+         key.type == ValueType::real_or_object;
+}
+
 std::string section_of(const ShapeHelp& shape) {
   std::string section = fmt::format("## {}\n\n{}\n", shape.name, shape.help);
   for (const SceneRule& rule : scene_rules())
     if (rule.shape == shape.shape) section += fmt::format("\nKeys: {}.\n", rule_text(rule));
   section += "\n| key | value | default | what it is |\n|---|---|---|---|\n";
-  for (const SceneKey& key : scene_keys()) {
-    if (key.shape != shape.shape) continue;
-    const std::string standard = key.required           ? "required"
-                                 : key.standard.empty() ? "-"
-                                                        : fmt::format("`{}`", key.standard);
-    section += fmt::format("| `{}` | {} | {} | {} |\n", key.name, expectation(key), standard, key.help);
-  }
+  for (const SceneKey& key : scene_keys())
+    if (key.shape == shape.shape) section += row_of(key);
   return section;
+}
+
+/// The rows of a key in all objects that have it, and the sections about the objects that are its values.
+std::string pages_about_key(std::string_view name) {
+  std::string rows, sections;
+  std::set<std::string_view> values;
+  for (const SceneKey& key : scene_keys()) {
+    if (key.name != name) continue;
+    rows += fmt::format("| {} {}", help_of(key.shape).name, row_of(key));
+    if (may_be_object(key) && values.insert(help_of(key.of).name).second)
+      sections += "\n" + section_of(help_of(key.of));
+  }
+  if (rows.empty()) return "";
+  return fmt::format("| object | key | value | default | what it is |\n|---|---|---|---|---|\n{}{}", rows, sections);
 }
 
 }  // namespace
@@ -154,14 +176,15 @@ std::string scene_reference() {
   return page;
 }
 
-std::string scene_reference(std::string_view object) {
+std::string scene_reference(std::string_view object_or_key) {
   std::vector<std::string> names;
   for (const ShapeHelp& shape : scene_shapes()) {
-    if (shape.name == object) return section_of(shape);
+    if (shape.name == object_or_key) return section_of(shape);
     names.emplace_back(shape.name);
   }
-  throw InputError(
-      fmt::format("the page of keys has no section '{}'; expected one of: {}", object, fmt::join(names, ", ")));
+  if (std::string pages = pages_about_key(object_or_key); !pages.empty()) return pages;
+  throw InputError(fmt::format("no object or key of scenes is called '{}'; expected a key, or one of the objects: {}",
+                               object_or_key, fmt::join(names, ", ")));
 }
 
 }  // namespace dartboard

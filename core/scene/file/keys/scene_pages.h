@@ -14,9 +14,10 @@ nlohmann::ordered_json scene_schema();
 /// The reference page of scene files, in Markdown.
 std::string scene_reference();
 
-/// The section of that page about one object, such as "refine".
+/// The section of that page about one object, such as "refine"; for a key such as "events" its rows, and the sections
+/// about the objects that are its values.
 ///
-/// throws  InputError if there is no such section; the message names all
-std::string scene_reference(std::string_view object);
+/// throws  InputError for any other name; the message lists the objects
+std::string scene_reference(std::string_view object_or_key);
 
 }  // namespace dartboard

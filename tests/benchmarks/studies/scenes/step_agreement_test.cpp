@@ -31,7 +31,7 @@ CpuClock ticking() {
 void expect_one_limit(SceneFile scene) {
   scene.accuracy.reset();
   if (scene.integrator.empty()) scene.integrator = "rk4";
-  const Scheme& scheme = make_integrator(scene.integrator)->scheme();
+  const Scheme& scheme = scheme_of(scene.integrator);
   if (!(scene.step > 0.0)) scene.step = scene.duration / 16;
   const StepLimit limit = Simulation(scene).step_limit();
   const bool is_explained = !scene.has_contact();  // explain-dt refuses scenes with contact

@@ -121,6 +121,17 @@ TYPED_TEST(Seam, OnAPlaneCutsABodyInTwoAndConservesWhatItCarries) {
   expect_conserved(before, sums_of(body), body.springs.size());
 }
 
+TYPED_TEST(Seam, OfFacetsBetweenChosenCellsCutsTheseOut) {
+  auto body = body_of<TypeParam>(kuhn_grid(4, 3, 3, 0.375, 0.1, 2));
+  const auto is_out = [](std::uint32_t cell) { return cell % 7 == 3; };
+  const auto seam = facets_between(body, [&](std::uint32_t a, std::uint32_t b) { return is_out(a) != is_out(b); });
+  expect_interior_lowest_and_ascending(body.map, seam);
+  adapt(body, dissociate_all(body.map, seam));
+  for (const Dart d : inner_facets(body.map))
+    EXPECT_EQ(is_out(body.cell(body.map, d)), is_out(body.cell(body.map, body.map.template alpha<3>(d))));
+  EXPECT_GT(components(body.map).count, 1u);
+}
+
 TYPED_TEST(Seam, OnAPlaneHasTheCellsOfEachComponentOnOneSide) {
   auto body = body_of<TypeParam>(kuhn_grid(4, 3, 3, 0.375, 0.1, 2));
   adapt(body, dissociate_all(body.map, faces_on_plane(body, slanted.point, slanted.normal)));

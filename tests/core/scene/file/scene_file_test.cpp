@@ -315,13 +315,26 @@ TEST(SceneReference, HasEachSectionAlone) {
   EXPECT_EQ(scene_reference("refine").rfind("## refine\n", 0), 0u);
 }
 
+TEST(SceneReference, LeadsFromAKeyToTheObjectsThatAreItsValues) {
+  const std::string page = scene_reference("events");
+  EXPECT_NE(page.find("| scene | `events` | a list of objects"), page.npos) << page;
+  EXPECT_NE(page.find(scene_reference("event")), page.npos) << page;
+  const std::string of_numbers = scene_reference("young");
+  EXPECT_NE(of_numbers.find("| material | `young` | "), of_numbers.npos) << of_numbers;
+  EXPECT_EQ(of_numbers.find("## "), of_numbers.npos) << of_numbers;
+}
+
 TEST(SceneReference, NamesAllSectionsWhereOneIsUnknown) {
   try {
     (void)scene_reference("refinement");
     FAIL() << "no error";
   } catch (const InputError& error) {
     const std::string said = error.what();
-    EXPECT_EQ(said.rfind("the page of keys has no section 'refinement'; expected one of: scene, ", 0), 0u) << said;
+    EXPECT_EQ(
+        said.rfind("no object or key of scenes is called 'refinement'; expected a key, or one of the objects: scene, ",
+                   0),
+        0u)
+        << said;
     for (const ShapeHelp& shape : scene_shapes())
       EXPECT_NE(said.find(" " + std::string(shape.name)), said.npos) << shape.name;
   }

@@ -162,7 +162,7 @@ TEST(Air, LetsASheetSinkAsTheClosedFormSaysWithTheOrderOfEveryIntegrator) {
     EXPECT_LE(a, 0.05) << entry.name;
     // a compensated method may do better where nothing but air acts
     if (b > 1e-11) {
-      EXPECT_GE(std::log2(a / b), make_integrator(entry.name)->scheme().order - 0.35) << entry.name;
+      EXPECT_GE(std::log2(a / b), scheme_of(entry.name).order - 0.35) << entry.name;
     }
   }
 }

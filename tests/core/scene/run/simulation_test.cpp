@@ -357,9 +357,8 @@ TEST(Simulation, NamesTheAccuracyThatAStepWasChosenForWhereItRefusesOne) {
 TEST(Simulation, GoesByTheLimitOfItsBodyForARunOfItsDuration) {
   const Simulation simulation(parse(too_stiff("warn")));
   const SimulatedBody& body = simulation.body();
-  const StepLimit limit = StableStepEstimate()
-                              .refresh(body.system(), body.vertices().position)
-                              .limit(make_integrator("rk4")->scheme(), horizon_of(0.2));
+  const StepLimit limit =
+      StableStepEstimate().refresh(body.system(), body.vertices().position).limit(scheme_of("rk4"), horizon_of(0.2));
   EXPECT_EQ(simulation.step_limit().stable, limit.stable);
   EXPECT_EQ(simulation.step_limit().unstable, limit.unstable);
   EXPECT_EQ(simulation.step_warning()->stable, limit.stable);

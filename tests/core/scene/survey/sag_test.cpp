@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/meshes/formats/loaded_mesh.h"
 #include "core/scene/file/scene_problem.h"
 #include "core/scene/survey/sag.h"
 #include "tests/support/bodies/surveys_for_tests.h"
@@ -73,6 +74,19 @@ TEST(Sag, IsNotOfSpringsWithoutAModulus) {
   Json springs = standing(5);
   springs["material"] = {{"density", 1000}, {"stiffness", 1e-3}};
   EXPECT_TRUE(sags(springs).empty());
+}
+
+TEST(Sag, NamesTheScaleOfAMeshFileThatHasNone) {
+  const std::string advice = "and a mesh in millimetres needs a 'scale' of 0.001";
+  EXPECT_NE(to_string(Sag{"/body", 20.0, 2.0, true}).find(advice), std::string::npos);
+  EXPECT_EQ(to_string(Sag{"/body", 20.0, 2.0, false}).find(advice), std::string::npos);
+  SceneFile scene = parse(standing(5));
+  const Problem problem = make_problem(scene);
+  EXPECT_FALSE(find_sags(scene, problem)[0].is_as_in_file);
+  scene.body.loaded = std::make_shared<const LoadedMesh>();
+  EXPECT_TRUE(find_sags(scene, problem)[0].is_as_in_file);
+  scene.body.scale = 0.001;
+  EXPECT_FALSE(find_sags(scene, problem)[0].is_as_in_file);
 }
 
 TEST(Sag, IsAWarningBeforeTheRun) {

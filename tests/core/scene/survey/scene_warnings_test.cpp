@@ -42,6 +42,28 @@ TEST(SceneWarnings, OfAStepSayWhichKeyToChangeToWhat) {
   EXPECT_NE(said[0].find(advice), std::string::npos) << said[0];
 }
 
+// The damping of elements limits Runge-Kutta and not Verlet, which takes it apart; contact has no part in it.
+TEST(SceneWarnings, OfAStepThatDampingLimitsNameAMethodThatItDoesNotLimit) {
+  Json json = moving_box();
+  json["material"] = Json::parse(R"({"density": 1000, "young": 20000, "poisson": 0.3,
+                                     "damping": {"ratio": 5, "frequency": 5}, "viscosity": 0})");
+  json["contact"] = Json::parse(R"({"pressure": 2000, "depth": 0.01,
+    "obstacles": [{"plane": {"point": [0, 0, -1], "normal": [0, 0, 1]}}]})");
+  json["integrator"] = "rk4";
+  json["step"] = 0.002;
+  const auto said = warnings_before_run(parse(json));
+  ASSERT_FALSE(said.empty());
+  const std::string method = "or take verlet, whose step the damping does not limit: ";
+  const std::size_t at = said[0].find(method);
+  ASSERT_NE(at, std::string::npos) << said[0];
+  EXPECT_EQ(said[0].find("where contacts are"), std::string::npos) << said[0];
+  json["integrator"] = "verlet";
+  json["step"] = std::stod(said[0].substr(at + method.size()));
+  EXPECT_FALSE(Simulation(parse(json)).step_warning());
+  json["step"] = 1.1 * json["step"].get<double>();
+  EXPECT_TRUE(Simulation(parse(json)).step_warning());
+}
+
 TEST(SceneWarnings, SayHowLongAStepIsBesideWhatIsStable) {
   Json json = moving_box();
   const double longest = Simulation(parse(json)).step_limit().stable;
@@ -69,23 +91,36 @@ TEST(SceneSurvey, NamesAMethodThatIsCheaperThanOneThatDampsCellByCell) {
                                      "damping": {"ratio": 0.05, "frequency": 5}, "viscosity": 0})");
   json["integrator"] = "verlet";
   json["step"] = 1e-4;
+  using Notes = std::vector<std::string>;
   EXPECT_EQ(
-      survey_of(parse(json)).cheaper,
-      "verlet goes through the damping of elements cell by cell, there and back; rk4 is stable at this step too, and "
-      "takes it in less than half of the time");
+      survey_of(parse(json)).notes,
+      Notes{"verlet goes through the damping of elements cell by cell, there and back; rk4 is stable at this step "
+            "too, and takes it in less than half of the time"});
   Json other = json;
   for (const char* integrator : {"rk4", "symplectic-euler", "backward-euler"}) {
     other["integrator"] = integrator;
-    EXPECT_EQ(survey_of(parse(other)).cheaper, "") << integrator;
+    EXPECT_EQ(survey_of(parse(other)).notes, Notes{}) << integrator;
   }
   other = json;
   other["material"].erase("damping");
-  EXPECT_EQ(survey_of(parse(other)).cheaper, "");
+  EXPECT_EQ(survey_of(parse(other)).notes, Notes{});
   // stiff dampers shorten the steps of rk4 and not those of verlet
   other = json;
   other["material"]["damping"]["ratio"] = 5;
   other["step"] = 0.002;
-  EXPECT_EQ(survey_of(parse(other)).cheaper, "");
+  EXPECT_EQ(survey_of(parse(other)).notes, Notes{});
+}
+
+// 23^3 vertices have three unknowns each
+TEST(SceneSurvey, SaysWhatAFactorOfManyUnknownsTakes) {
+  Json json = moving_box();
+  json["body"] = Json::parse(R"({"generate": {"box": {"cells": [22, 22, 22], "spacing": 0.1, "pattern": "kuhn"}}})");
+  json["integrator"] = "backward-euler";
+  const std::vector<std::string> notes = survey_of(parse(json)).notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].find("an implicit step has 36.5 thousand unknowns here: a factor of its matrix has "), 0u);
+  json["solver"] = "conjugate-gradients";  // which makes no factor
+  EXPECT_TRUE(survey_of(parse(json)).notes.empty());
 }
 
 // 1 / (2 pi 0.001 s) = 159.2 Hz

@@ -57,13 +57,16 @@ TEST(SelectionCounts, OfCutsAreTheFacesThatTheBodyFindsAtRest) {
   json["events"] = Json::parse(R"([
     {"at": 0.005, "dissociate": {"plane": {"point": [0.5, 0, 0], "normal": [1, 0, 0]}}},
     {"at": 0.005, "dissociate": {"plane": {"point": [0.5, 0, 0], "normal": [1, 0, 0]},
-                                 "within": {"box": {"min": [0, 0, 0], "max": [1, 0.04, 1]}}}}])");
+                                 "within": {"box": {"min": [0, 0, 0], "max": [1, 0.04, 1]}}}},
+    {"at": 0.005, "dissociate": {"plane": {"point": [2, 0, 0], "normal": [1, 0, 0]}}}])");
   Lines said;
   const SceneSurvey survey = survey_of(parse(json));
   for (const SelectionCount& count : survey.selections) said.push_back(to_string(count));
   // inside each cube 6 faces between its six tetrahedra, between two cubes 2
   EXPECT_EQ(said, (Lines{"/events/0/dissociate: 2 of 78 faces between cells",
-                         "/events/1/dissociate: 1 of 78 faces between cells"}));
+                         "/events/1/dissociate: 1 of 78 faces between cells",
+                         "/events/2/dissociate: 0 of 78 faces between cells at the start; it acts where the body is "
+                         "then"}));
 }
 
 // The diagonal is 1.0099..., so borders are 1.01e-9 thick.
@@ -133,7 +136,8 @@ TEST(SelectionCounts, OfACutOfASurfaceNameItsEdges) {
   json["events"] = Json::parse(R"([{"at": 0.005, "dissociate": {"plane": {"point": [0.5, 0, 0], "normal": [1, 0, 0]},
                                    "within": {"box": {"min": [0, 0.250000005, -1], "max": [1, 0.7, 1]}}}}])");
   const SelectionCount count = of_cut(json);
-  EXPECT_EQ(to_string(count), "/events/0/dissociate: 0 of 8 edges between faces");
+  EXPECT_EQ(to_string(count),
+            "/events/0/dissociate: 0 of 8 edges between faces at the start; it acts where the body is then");
   EXPECT_EQ(count.just_outside, 1u);
 }
 

@@ -153,7 +153,7 @@ TEST(FollowingPressure, KeepsTheOrderOfEveryIntegrator) {
       const VertexColumns& v = simulation.body().vertices();
       return v.position[static_cast<std::size_t>(std::ranges::find(v.point, 17u) - v.point.begin())];
     };
-    const int order = make_integrator(entry.name)->scheme().order;
+    const int order = scheme_of(entry.name).order;
     const double h = order > 2 ? 0.004 : order > 1 ? 0.0005 : 0.0001;
     const Vector3d a = place(h), b = place(h / 2), c = place(h / 4);
     EXPECT_NEAR(std::log2((a - b).norm() / (b - c).norm()), order, 0.25) << entry.name;

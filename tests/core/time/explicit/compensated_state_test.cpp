@@ -121,7 +121,7 @@ TEST(CompensatedState, LeavesNothingToWarnOfInTinySteps) {
   StableStepEstimate estimate;
   const StableStep limits = estimate.refresh(body.system(), body.x);
   for (const auto& [name, warned] : {std::pair{"verlet", true}, {"verlet-compensated", false}})
-    EXPECT_EQ(check_before_run(body.system(), body.motion(), make_integrator(name)->scheme(), 1e-16, limits)
+    EXPECT_EQ(check_before_run(body.system(), body.motion(), scheme_of(name), 1e-16, limits)
                   .warns_of(StepCode::step_underflow),
               warned)
         << name;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double u = std::numeric_limits<double>::epsilon() / 2;  // unit roundoff
 
-const Scheme& scheme(const char* name) { return make_integrator(name)->scheme(); }
+const Scheme& scheme(const char* name) { return scheme_of(name); }
 
 TEST(Scheme, AmplifiesAsTheClosedFormsSay) {
   for (const double theta : {0.1, 1.0, 1.9}) {

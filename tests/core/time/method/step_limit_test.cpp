@@ -216,7 +216,7 @@ TEST(StepLimit, OfNoDurationIsThatOfOneStep) {
 }
 
 TEST(StepLimit, IsNoneOfImplicitMethods) {
-  const StepLimit limit = limit_of(damped_cube(1.0), make_integrator("backward-euler")->scheme());
+  const StepLimit limit = limit_of(damped_cube(1.0), scheme_of("backward-euler"));
   EXPECT_EQ(limit.stable, Scheme::unlimited);
   EXPECT_EQ(limit.unstable, Scheme::unlimited);
 }
@@ -226,7 +226,7 @@ TEST(StepLimit, OfWhatOnlyDecaysIsBracketedByItsRates) {
   SpringArrays body;
   body.add_vertex(2.0, {0, 0, 0});
   body.viscosity[0] = 6.0;
-  const StepLimit limit = limit_of(body, make_integrator("explicit-euler")->scheme(), {.steps = 1e9, .gain = 2.0});
+  const StepLimit limit = limit_of(body, scheme_of("explicit-euler"), {.steps = 1e9, .gain = 2.0});
   EXPECT_NEAR(limit.stable, 2.0 / 3.0, 1e-6);
   EXPECT_NEAR(limit.unstable, 2.0 / 3.0, 1e-6);
 }

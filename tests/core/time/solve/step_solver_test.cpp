@@ -78,7 +78,10 @@ TEST(StepSolver, CountsAssembliesFactorsAndSolutionsAndAnalysesOnce) {
   EXPECT_EQ(work.solves, 3u);
   EXPECT_EQ(work.analyses, 1u);
   EXPECT_EQ(work.linear_iterations, 0u);
-  EXPECT_EQ(work.factor_nonzeros, Cholesky::predicted_nonzeros(node_pattern_of(body.system()), 3, options.cholesky));
+  const auto foreseen = forecast_factor(body.system(), options);
+  EXPECT_EQ(work.factor_nonzeros, foreseen->numbers);
+  EXPECT_EQ(foreseen->unknowns, 3 * body.x.size());
+  EXPECT_EQ(foreseen->seconds, solver.cholesky().factorisation_cost());
 }
 
 TEST(StepSolver, CountsTheIterationsOfConjugateGradients) {

@@ -44,7 +44,7 @@ SpringArrays moving_grid(unsigned seed = 1) {
 double limit(const SpringArrays& body, const char* name) {
   StableStepEstimate estimate;
   const StableStep& step = estimate.refresh(body.system(), body.x);
-  return make_integrator(name)->scheme().imaginary_limit / step.lower;
+  return scheme_of(name).imaginary_limit / step.lower;
 }
 
 TEST(Divergence, IsFoundWithin64StepsOfAnyUnstableRun) {
@@ -239,7 +239,7 @@ TEST(Divergence, NamesANumberThatIsNoneInjectedInMidRun) {
 /// A careless method: it keeps the larger of two numbers, which a NaN passes, and reports success.
 class Launderer : public Integrator {
  public:
-  const Scheme& scheme() const override { return make_integrator("verlet")->scheme(); }
+  const Scheme& scheme() const override { return scheme_of("verlet"); }
   StepResult step(const SpringSystem&, Motion motion, double) override {
     double residual = 0.0;
     motion.v[3][2] = std::numeric_limits<double>::quiet_NaN();

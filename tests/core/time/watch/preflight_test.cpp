@@ -20,7 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 Preflight check(SpringArrays& body, double h, const char* name = "verlet") {
   StableStepEstimate estimate;
   const StableStep limits = estimate.refresh(body.system(), body.x);
-  return check_before_run(body.system(), body.motion(), make_integrator(name)->scheme(), h, limits);
+  return check_before_run(body.system(), body.motion(), scheme_of(name), h, limits);
 }
 
 void expect_refused(SpringArrays body, StepCode code, Witness witness, std::uint32_t number, double h = 1e-3) {
@@ -75,7 +75,7 @@ TEST(Preflight, WarnsOfAnUnstableStep) {
 TEST(Preflight, NamesAVertexOfElementsWhoseCoordinatesAreCoarse) {
   ElementBody far(kuhn_box(1, 1, 1, 0.1), Model::neo_hookean, 1e5, 0.3);
   const auto check = [&] {
-    return check_before_run(far.system(), far.motion(), make_integrator("verlet")->scheme(), 1e-4,
+    return check_before_run(far.system(), far.motion(), scheme_of("verlet"), 1e-4,
                             StableStepEstimate().refresh(far.system(), far.x));
   };
   EXPECT_TRUE(check().warnings.empty());

@@ -16,7 +16,7 @@
 namespace dartboard::stable_step_test {
 namespace {
 
-const Scheme& scheme(const char* name) { return make_integrator(name)->scheme(); }
+const Scheme& scheme(const char* name) { return scheme_of(name); }
 
 /// omega_max with the exact tangent of the springs, from a matrix put together entry by entry here.
 double true_frequency(const SpringArrays& body) {
