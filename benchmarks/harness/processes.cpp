@@ -156,9 +156,4 @@ void run_self(const std::vector<std::string>& arguments, const LineSink& on_line
   run(self, name, arguments, on_line, Stderr::shown);
 }
 
-void repeat_self(int times, const std::function<std::vector<std::string>(int process)>& arguments,
-                 const LineSink& on_line) {
-  for (int process = 0; process < times; ++process) run_self(arguments(process), on_line);
-}
-
 }  // namespace dartboard

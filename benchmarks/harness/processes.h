@@ -32,9 +32,4 @@ void run_program(const std::string& program, const std::vector<std::string>& arg
 /// build has replaced it meanwhile, so a study never mixes two builds.
 void run_self(const std::vector<std::string>& arguments, const LineSink& on_line);
 
-/// Runs it `times` times, one after the other, each time in a new process with the arguments for its number (from 0).
-/// Stops at the first failure.
-void repeat_self(int times, const std::function<std::vector<std::string>(int process)>& arguments,
-                 const LineSink& on_line);
-
 }  // namespace dartboard

@@ -1,9 +1,13 @@
 #include "benchmarks/report/publish.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -14,6 +18,8 @@
 #include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/run_folder.h"
 #include "benchmarks/harness/tell.h"
+#include "benchmarks/report/finished_children.h"
+#include "core/base/counted.h"
 
 namespace dartboard {
 
@@ -23,14 +29,61 @@ int exit_code(const Report& report) {
 
 namespace {
 
+/// Prints a sentence before a signal ends the program.
+class LastWords {
+ public:
+  LastWords() = default;
+  ~LastWords() { set(""); }
+  LastWords(const LastWords&) = delete;
+  LastWords& operator=(const LastWords&) = delete;
+
+  void set(const std::string& sentence) {
+    said() = sentence;
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, sentence.empty() ? SIG_DFL : &say);
+  }
+
+ private:
+  static std::string& said() {
+    static std::string text;
+    return text;
+  }
+  static void say(int signal) {
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, said().data(), said().size());
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+};
+
 class Publisher : public StudyLog {
  public:
   explicit Publisher(const Publication& how) : how_(how) {
+    if (!how.continues.empty()) earlier_.emplace(how.continues);
     if (how.out.empty() && !how.keeps_folder) return;
     folder_.emplace(run_path(how.out, how.label));
     manifest_ = begin_manifest(how.facts);
     manifest_["quick"] = how.quick;
     folder_->write_manifest(manifest_);
+  }
+
+  void run(const std::vector<std::string>& arguments, const LineSink& on_line) override {
+    std::vector<std::string> lines;
+    if (auto kept = earlier_ ? earlier_->take(arguments) : std::nullopt) {
+      lines = std::move(*kept);
+      for (const std::string& line : lines) on_line(line);
+    } else {
+      run_self(arguments, [&](std::string_view line) {
+        lines.emplace_back(line);
+        on_line(line);
+      });
+    }
+    if (!folder_) return;
+    if (!children_) {
+      children_.emplace(*folder_);
+      last_words_.set(
+          fmt::format("\ndartboard: what was measured is kept; go on with the same command and --continue {}\n",
+                      folder_->path().string()));
+    }
+    children_->add(arguments, lines);
   }
 
   void say(const std::string& sentence) override {
@@ -65,7 +118,14 @@ class Publisher : public StudyLog {
 
   int end(const Report& last) {
     finished(last, "");
+    last_words_.set("");
+    if (earlier_) {
+      say(fmt::format("{} taken from {}.", counted(earlier_->taken(), "finished process", "finished processes"),
+                      earlier_->folder().string()));
+      manifest_["continues"] = {{"processes", earlier_->taken()}, {"manifest", earlier_manifest()}};
+    }
     if (folder_) {
+      if (children_) std::filesystem::remove(folder_->path() / ChildrenLog::file_name);
       manifest_.update(nlohmann::json(last.facts));
       finish_manifest(manifest_);
       folder_->write_manifest(manifest_);
@@ -136,8 +196,16 @@ class Publisher : public StudyLog {
     return json;
   }
 
+  nlohmann::json earlier_manifest() const {
+    std::ifstream in(earlier_->folder() / "manifest.json");
+    return nlohmann::json::parse(in, nullptr, false);
+  }
+
   const Publication& how_;
+  std::optional<FinishedChildren> earlier_;
   std::optional<RunFolder> folder_;
+  std::optional<ChildrenLog> children_;
+  LastWords last_words_;
   nlohmann::json manifest_;
   std::map<std::string, Part> parts_;  // by name; that of the run is ""
   std::unique_ptr<Progress> progress_;

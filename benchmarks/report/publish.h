@@ -16,6 +16,7 @@ struct Publication {
   bool keeps_folder = true;  // a folder is written even without `out`, in dartboard-results
   bool json = false, quick = false;
   std::string out{};
+  std::string continues{};  // the folder of a study that was interrupted, whose finished children are not run again
   RunFacts facts{};
 };
 

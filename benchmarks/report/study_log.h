@@ -2,10 +2,13 @@
 // The log through which a study reports its progress. It knows of no terminal, no file and no exit status.
 
 #include <cstddef>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "benchmarks/harness/processes.h"
 #include "benchmarks/report/report.h"
 
 namespace dartboard {
@@ -20,6 +23,14 @@ class StudyLog {
   /// Records a measurement. It is kept at once, so that a run that dies keeps its samples.
   virtual void sample(const nlohmann::json& /*sample*/, const std::string& /*file*/ = "samples.jsonl",
                       const std::string& /*folder*/ = "") {}
+  /// Runs this program again in a process of its own, and hands over each line that it prints. Where the study goes on
+  /// after an interruption, a child that had come to its end is not run again (finished_children.h).
+  ///
+  /// throws  ProcessError
+  virtual void run(const std::vector<std::string>& arguments, const LineSink& on_line);
+  /// The same for one that prints samples: each is recorded, and handed over.
+  void measure(const std::vector<std::string>& arguments, const std::function<void(const nlohmann::json&)>& take,
+               const std::string& folder = "");
   /// `begin` starts work of that many steps and ends the work before it; `advance` says that one more step is done.
   virtual void begin(const std::string& /*label*/, std::size_t /*steps*/) {}
   virtual void advance(std::string_view /*detail*/ = "") {}

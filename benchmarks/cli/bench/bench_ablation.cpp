@@ -31,7 +31,8 @@ void add_measure_ablation(CLI::App& app) {
 void add_bench_ablation(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   auto* verb = bench.add_subcommand(
       "ablation", "Each feature of a scene on from a bare one and off from a full one: bytes, and time per step.");
-  auto options = study_options(*verb, {.quick = "fewer rounds, fewer processes", .seed = "the order of the tasks"});
+  auto options = study_options(
+      *verb, {.quick = "fewer rounds, fewer processes", .seed = "the order of the tasks", .goes_on = true});
   verb->callback([options, &outcome] {
     RunFacts facts{.seeds = {{"order of the tasks", options->seed}},
                    .input_files = {source_folder() / "benchmarks/meshes/liver564.mesh",

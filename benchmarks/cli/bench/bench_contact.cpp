@@ -31,8 +31,9 @@ void add_measure_contact(CLI::App& app) {
 void add_bench_contact(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   auto* verb = bench.add_subcommand(
       "contact", "Contact at rest, in a pile, after a cut, compared with steps and forces; its growth with the body.");
-  auto options = study_options(
-      *verb, {.quick = "small plates, fewer processes", .seed = "the order of the tasks, and the places in the pile"});
+  auto options = study_options(*verb, {.quick = "small plates, fewer processes",
+                                       .seed = "the order of the tasks, and the places in the pile",
+                                       .goes_on = true});
   verb->callback([options, &outcome] {
     RunFacts facts{.seeds = {{"order of the tasks, places in the pile", options->seed}},
                    .input_files = {source_folder() / "benchmarks/meshes/liver564.mesh"}};

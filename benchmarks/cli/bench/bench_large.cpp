@@ -33,7 +33,7 @@ void add_bench_large(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   auto* verb = bench.add_subcommand(
       "large",
       "Time and memory of each part of a run, up to ten million tetrahedra that are cut, compared with copies.");
-  auto options = study_options(*verb, {.quick = "the body of 10^5 tetrahedra alone, fewer processes"});
+  auto options = study_options(*verb, {.quick = "the body of 10^5 tetrahedra alone, fewer processes", .goes_on = true});
   verb->callback([options, &outcome] {
     run_study(
         *options, {.label = "large"}, [&](StudyLog& log) { return large_bench({options->quick}, log); }, outcome);

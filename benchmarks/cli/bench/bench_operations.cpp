@@ -36,8 +36,8 @@ void add_bench_operations(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   auto* verb = bench.add_subcommand(
       "operations",
       "Dissociate, remove, tear, refine, split off, undo: by size of the body, compared with the time of a step.");
-  auto options =
-      study_options(*verb, {.quick = "small bodies, fewer processes", .seed = "the places of the operations"});
+  auto options = study_options(
+      *verb, {.quick = "small bodies, fewer processes", .seed = "the places of the operations", .goes_on = true});
   verb->callback([options, &outcome] {
     RunFacts facts{.seeds = {{"places of operations", options->seed}}, .input_files = {paper_body("liver").mesh}};
     run_study(

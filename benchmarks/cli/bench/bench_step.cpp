@@ -82,7 +82,8 @@ void add_bench_step(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   };
   auto options =
       study_options<Options>(*verb, {.quick = "bodies of up to 10^5 tetrahedra, fewer processes",
-                                     .seed = "the order of the tasks, shuffled meshes, velocities and changes"});
+                                     .seed = "the order of the tasks, shuffled meshes, velocities and changes",
+                                     .goes_on = true});
   verb->add_option(
       "MESH", options->meshes,
       "files of tetrahedra: their bodies follow the others, in the order of the file, cut finer until there "

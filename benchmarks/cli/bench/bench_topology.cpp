@@ -36,7 +36,8 @@ void add_bench_topology(CLI::App& bench, CLI::App& app, Outcome& outcome) {
   auto* verb =
       bench.add_subcommand("topology", "Memory, walks, checks, building and unsewing, side by side with CGAL.");
   auto options = study_options<Options>(
-      *verb, {.quick = "fewer processes and rounds", .seed = "the order of turns and the random faces"});
+      *verb,
+      {.quick = "fewer processes and rounds", .seed = "the order of turns and the random faces", .goes_on = true});
   const auto bodies = topology_bench_bodies();
   verb->add_option("--only", options->only, fmt::format("of {} [all]", fmt::join(bodies, ", ")))
       ->check(CLI::IsMember(bodies));

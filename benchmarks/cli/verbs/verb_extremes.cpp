@@ -18,8 +18,9 @@ void add_extremes(CLI::App& app, Outcome& outcome) {
   };
   auto* verb = app.get_subcommand("extremes");
   auto options = study_options<Options>(
-      *verb,
-      {.quick = "every third value, coarser maps, shorter runs; of scenes half of the steps", .keeps_folder = false});
+      *verb, {.quick = "every third value, coarser maps, shorter runs; of scenes half of the steps",
+              .keeps_folder = false,
+              .goes_on = true});
   auto* scenes = verb->add_option(
       "SCENE", options->plan.scenes,
       "instead of the study's own bodies: scene files (.json), names of the gallery, or of " + study_scene_names());

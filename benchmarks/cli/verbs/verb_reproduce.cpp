@@ -15,7 +15,8 @@ void add_reproduce(CLI::App& app, Outcome& outcome) {
   auto* verb = app.get_subcommand("reproduce");
   auto options =
       study_options<Options>(*verb, {.quick = "fewer processes and rounds, a third of the extremes: some minutes less",
-                                     .seed = "the order in which contenders take turns"});
+                                     .seed = "the order in which contenders take turns",
+                                     .goes_on = true});
   verb->add_option("--part", options->part, "only this part: paper or larger, some 20 s each, or extremes [all]")
       ->check(CLI::IsMember({"paper", "larger", "extremes"}));
   verb->callback([options, &outcome] {

@@ -75,7 +75,7 @@ void add_measure_models(CLI::App& app) {
 void add_tradeoff(CLI::App& app, Outcome& outcome) {
   auto* verb = app.get_subcommand("tradeoff");
   auto options = study_options<TradeoffOptions>(
-      *verb, {.quick = "short runs, few repetitions", .seed = "the order of the integrators"});
+      *verb, {.quick = "short runs, few repetitions", .seed = "the order of the integrators", .goes_on = true});
   verb->add_option("SCENE", options->scene,
                    "a scene file (.json), the name of one of the gallery, or one of " + study_scene_names());
   auto* all = verb->add_flag("--all", options->all, "all scenes");

@@ -60,8 +60,8 @@ void add_validate_elements(CLI::App& validate, CLI::App& app, Outcome& outcome) 
   auto* verb = validate.add_subcommand(
       "elements",
       "A clamped beam by springs and by elements, compared with quadratic ones: errors and cost of each model");
-  auto options =
-      study_options<Options>(*verb, {.quick = "coarse meshes", .seed = "the random operations", .keeps_folder = false});
+  auto options = study_options<Options>(
+      *verb, {.quick = "coarse meshes", .seed = "the random operations", .keeps_folder = false, .goes_on = true});
   auto* operations =
       verb->add_option("--operations", options->operations,
                        "in place of the beam: cut, tear and erode bodies of elements, and of two materials by region, "

@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/harness/processes.h"
 #include "benchmarks/studies/contact/bench_contact_report.h"
 
 namespace dartboard {
@@ -16,16 +15,15 @@ Report contact_bench(const ContactBenchPlan& plan, StudyLog& log) {
   log.say(fmt::format("steps and forces, plates of up to {} tetrahedra, in {} processes", costs.largest, processes));
   log.begin("timing", static_cast<std::size_t>(processes));
   for (int process = 0; process < processes; ++process) {
-    run_self({"measure-contact", "--process", std::to_string(process), "--rounds", std::to_string(rounds), "--steps",
-              std::to_string(steps), "--largest", std::to_string(costs.largest), "--seed", std::to_string(plan.seed)},
-             [&](std::string_view line) {
-               const auto json = nlohmann::json::parse(line);
-               log.sample(json);
-               if (json.contains("situation"))
-                 costs.counts[json.at("situation")] = json.get<ContactCounts>();
-               else
-                 costs.samples.push_back(json.get<Sample>());
-             });
+    log.measure(
+        {"measure-contact", "--process", std::to_string(process), "--rounds", std::to_string(rounds), "--steps",
+         std::to_string(steps), "--largest", std::to_string(costs.largest), "--seed", std::to_string(plan.seed)},
+        [&](const nlohmann::json& json) {
+          if (json.contains("situation"))
+            costs.counts[json.at("situation")] = json.get<ContactCounts>();
+          else
+            costs.samples.push_back(json.get<Sample>());
+        });
     log.advance();
   }
   check_repeats(costs.samples);

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "benchmarks/harness/processes.h"
 #include "core/time/system/accelerations.h"
 #include "core/time/watch/stable_step.h"
 #include "core/topology/storage/hash.h"
@@ -79,13 +78,9 @@ void measure_element_costs(const ElementCostPlan& plan, const std::function<void
 std::vector<ModelCost> element_costs(const ElementCostPlan& plan, StudyLog& log) {
   std::vector<Sample> samples;
   for (int process = 0; process < plan.processes; ++process)
-    run_self({"measure-elements", "--process", std::to_string(process), "--rounds", std::to_string(plan.rounds),
-              "--evaluations", std::to_string(plan.evaluations), "--across", std::to_string(plan.across)},
-             [&](std::string_view line) {
-               const auto json = nlohmann::json::parse(line);
-               log.sample(json);
-               samples.push_back(json.get<Sample>());
-             });
+    log.measure({"measure-elements", "--process", std::to_string(process), "--rounds", std::to_string(plan.rounds),
+                 "--evaluations", std::to_string(plan.evaluations), "--across", std::to_string(plan.across)},
+                [&](const nlohmann::json& json) { samples.push_back(json.get<Sample>()); });
   check_repeats(samples);
   std::vector<ModelCost> costs;
   for (Timed& t : timed_bodies(plan.across)) {

@@ -70,7 +70,7 @@ void run_all(const ExtremesPlan& plan, std::span<const ExtremeCase> cases, Study
     if (plan.quick) arguments.emplace_back("--quick");
     std::string why = "the process ended";
     try {
-      run_self(arguments, [&end](std::string_view line) {
+      log.run(arguments, [&end](std::string_view line) {
         if (line.starts_with('{')) end(Json::parse(line));
       });
     } catch (const ProcessError& error) {

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "benchmarks/harness/processes.h"
 #include "benchmarks/studies/large/bench_large_report.h"
 
 namespace dartboard {
@@ -17,9 +16,7 @@ Report large_bench(const LargeBenchPlan& plan, StudyLog& log) {
     std::vector<std::string> arguments{"measure-large", "--side", std::to_string(side), "--process",
                                        std::to_string(process)};
     if (start) arguments.emplace_back("--start");
-    run_self(arguments, [&](std::string_view line) {
-      const auto json = nlohmann::json::parse(line);
-      log.sample(json);
+    log.measure(arguments, [&](const nlohmann::json& json) {
       if (json.contains("part"))
         figures.times.push_back(json.get<LargeTime>());
       else

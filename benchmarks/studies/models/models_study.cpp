@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/harness/clock.h"
-#include "benchmarks/harness/processes.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/models/model_times.h"
 #include "benchmarks/studies/models/models_report.h"
@@ -52,11 +51,8 @@ void measure_costs(ModelsResults& results, const ModelsPlan& plan, StudyLog& log
   const int processes = plan.quick ? 6 : 7;
   log.begin(fmt::format("timing {} bars", times.bars.size()), static_cast<std::size_t>(processes));
   for (times.process = 0; times.process < processes; ++times.process) {
-    run_self({"measure-models", to_argument(times)}, [&](std::string_view line) {
-      const auto json = nlohmann::json::parse(line);
-      log.sample(json);
-      results.samples.push_back(json.get<Sample>());
-    });
+    log.measure({"measure-models", to_argument(times)},
+                [&](const nlohmann::json& json) { results.samples.push_back(json.get<Sample>()); });
     log.advance();
   }
   check_repeats(results.samples);

@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "benchmarks/harness/processes.h"
 #include "benchmarks/studies/operations/bench_operations_report.h"
 
 namespace dartboard {
@@ -19,19 +18,17 @@ Report operations_bench(const OperationsBenchPlan& plan, StudyLog& log) {
   OperationFigures results;
   for (int process = 0; process < processes; ++process)
     for (const std::string& body : bodies) {
-      run_self({"measure-operations", "--process", std::to_string(process), "--times", std::to_string(times), "--seed",
-                std::to_string(plan.seed + static_cast<std::uint64_t>(process)), body},
-               [&](std::string_view line) {
-                 const auto json = nlohmann::json::parse(line);
-                 log.sample(json);
-                 if (json.contains("operation")) {
-                   auto s = json.get<OperationSample>();
-                   results.operations[s.body + ":" + s.operation].push_back(std::move(s));
-                 } else {
-                   auto s = json.get<BodySample>();
-                   results.bodies[s.body].push_back(std::move(s));
-                 }
-               });
+      log.measure({"measure-operations", "--process", std::to_string(process), "--times", std::to_string(times),
+                   "--seed", std::to_string(plan.seed + static_cast<std::uint64_t>(process)), body},
+                  [&](const nlohmann::json& json) {
+                    if (json.contains("operation")) {
+                      auto s = json.get<OperationSample>();
+                      results.operations[s.body + ":" + s.operation].push_back(std::move(s));
+                    } else {
+                      auto s = json.get<BodySample>();
+                      results.bodies[s.body].push_back(std::move(s));
+                    }
+                  });
       log.advance(body);
     }
   return {.tables = {{"operations", "Operations, one by one", operations_table(results, bodies), operations_note()},

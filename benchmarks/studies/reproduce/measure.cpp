@@ -5,8 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/harness/clock.h"
-#include "benchmarks/harness/processes.h"
-#include "benchmarks/harness/progress.h"
 #include "validation/contenders/contenders.h"
 
 namespace dartboard {
@@ -35,29 +33,25 @@ MeasurePlan plan_measurement(const std::string& scene, const Problem& problem, c
   return plan;
 }
 
-std::vector<StepSample> measure(const MeasurePlan& plan, const std::function<void(const StepSample&)>& sink) {
-  Progress progress("timing", static_cast<std::size_t>(plan.processes * plan.rounds) * plan.contenders.size());
+std::vector<StepSample> measure(const MeasurePlan& plan, StudyLog& log) {
+  log.begin("timing", static_cast<std::size_t>(plan.processes * plan.rounds) * plan.contenders.size());
   std::vector<StepSample> samples;
-  repeat_self(
-      plan.processes,
-      [&](int process) {
-        std::vector<std::string> arguments{"measure",
-                                           "--scene",
-                                           plan.scene,
-                                           "--process",
-                                           std::to_string(process),
-                                           "--rounds",
-                                           std::to_string(plan.rounds),
-                                           "--seed",
-                                           std::to_string(plan.seed)};
-        for (const auto& c : plan.contenders) arguments.push_back(fmt::format("{}:{}", c.id, c.steps));
-        return arguments;
-      },
-      [&](std::string_view line) {
-        samples.push_back(nlohmann::json::parse(line).get<StepSample>());
-        sink(samples.back());
-        progress.advance(samples.back().sample.task);
-      });
+  for (int process = 0; process < plan.processes; ++process) {
+    std::vector<std::string> arguments{"measure",
+                                       "--scene",
+                                       plan.scene,
+                                       "--process",
+                                       std::to_string(process),
+                                       "--rounds",
+                                       std::to_string(plan.rounds),
+                                       "--seed",
+                                       std::to_string(plan.seed)};
+    for (const auto& c : plan.contenders) arguments.push_back(fmt::format("{}:{}", c.id, c.steps));
+    log.measure(arguments, [&](const nlohmann::json& json) {
+      samples.push_back(json.get<StepSample>());
+      log.advance(samples.back().sample.task);
+    });
+  }
   std::vector<Sample> plain;
   for (const StepSample& s : samples) plain.push_back(s.sample);
   check_repeats(plain);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "benchmarks/harness/paired.h"
+#include "benchmarks/report/study_log.h"
 #include "core/plain/problem.h"
 
 namespace dartboard {
@@ -41,7 +42,7 @@ MeasurePlan plan_measurement(const std::string& scene, const Problem& problem, c
 /// Carry out the plan in `plan.processes` processes of this executable, one after the other.
 ///
 /// throws  SolverError for a contender that does not leave the same state in all rounds and processes
-std::vector<StepSample> measure(const MeasurePlan& plan, const std::function<void(const StepSample&)>& sink);
+std::vector<StepSample> measure(const MeasurePlan& plan, StudyLog& log);
 
 /// The samples scaled to nanoseconds per step.
 std::vector<Sample> per_step(const std::vector<StepSample>& samples);

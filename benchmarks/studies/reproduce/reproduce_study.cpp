@@ -45,7 +45,7 @@ Report reproduce_paper(const ReproducePlan& plan, StudyLog& log) {
     const MeasurePlan measured = plan_measurement(body, problem, gates.agreed, plan.quick, plan.seed);
     log.say(fmt::format("3. Time per step: {} processes, {} interleaved rounds each\n", measured.processes,
                         measured.rounds));
-    results.per_step = per_step(measure(measured, [&](const StepSample& s) { log.sample(s); }));
+    results.per_step = per_step(measure(measured, log));
   }
   Report report{.tables = {{"timing", "Time per RK4 step", timing_table(results), timing_note(results, problem)}},
                 .claims = answer_claims(results, problem)};

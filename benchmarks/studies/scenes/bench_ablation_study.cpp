@@ -5,7 +5,6 @@
 #include <map>
 #include <string>
 
-#include "benchmarks/harness/processes.h"
 #include "benchmarks/studies/scenes/ablation_study.h"
 #include "benchmarks/studies/scenes/bench_ablation_report.h"
 #include "core/scene/plan/scene_plan.h"
@@ -39,13 +38,9 @@ Report ablation_bench(const AblationBenchPlan& plan, StudyLog& log) {
                       processes));
   log.begin("timing", static_cast<std::size_t>(processes));
   for (int process = 0; process < processes; ++process) {
-    run_self({"measure-ablation", "--process", std::to_string(process), "--rounds", std::to_string(rounds), "--steps",
-              std::to_string(steps), "--seed", std::to_string(plan.seed)},
-             [&](std::string_view line) {
-               const auto json = nlohmann::json::parse(line);
-               log.sample(json);
-               results.samples.push_back(json.get<Sample>());
-             });
+    log.measure({"measure-ablation", "--process", std::to_string(process), "--rounds", std::to_string(rounds),
+                 "--steps", std::to_string(steps), "--seed", std::to_string(plan.seed)},
+                [&](const nlohmann::json& json) { results.samples.push_back(json.get<Sample>()); });
     log.advance();
   }
   check_repeats(results.samples);

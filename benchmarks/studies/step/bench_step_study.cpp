@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "benchmarks/harness/processes.h"
 #include "benchmarks/harness/scratch_folder.h"
 #include "benchmarks/studies/step/changed_report.h"
 #include "benchmarks/studies/step/changing_report.h"
@@ -34,14 +33,15 @@ void measure_in_process(std::vector<std::string> arguments, std::uint64_t seed, 
                         std::vector<Sample>& samples, const std::function<void(Counts)>& take,
                         const std::string& folder = "") {
   arguments.insert(arguments.end(), {"--seed", std::to_string(seed)});
-  run_self(arguments, [&](std::string_view line) {
-    const auto json = nlohmann::json::parse(line);
-    log.sample(json, "samples.jsonl", folder);
-    if (json.contains(key))
-      take(json.get<Counts>());
-    else
-      samples.push_back(json.get<Sample>());
-  });
+  log.measure(
+      arguments,
+      [&](const nlohmann::json& json) {
+        if (json.contains(key))
+          take(json.get<Counts>());
+        else
+          samples.push_back(json.get<Sample>());
+      },
+      folder);
 }
 
 Report report_on_unchanged(const StepBenchPlan& plan, const Extent& extent, StudyLog& log) {

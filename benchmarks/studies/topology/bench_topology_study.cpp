@@ -9,7 +9,6 @@
 #include <set>
 
 #include "benchmarks/harness/json_text.h"
-#include "benchmarks/harness/processes.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/studies/topology/bench_topology_report.h"
 #include "benchmarks/studies/topology/topology_tasks.h"
@@ -140,22 +139,18 @@ Report topology_bench(const TopologyBenchPlan& plan, StudyLog& log) {
   log.say(fmt::format("{} figures; {} processes, {} interleaved rounds each", groups.size(), processes, rounds));
   log.begin("timing", static_cast<std::size_t>(processes) * groups.size());
   std::string last;
-  repeat_self(
-      processes,
-      [&](int process) {
-        std::vector<std::string> arguments{"measure-topology",     "--process", std::to_string(process),  "--rounds",
-                                           std::to_string(rounds), "--seed",    std::to_string(plan.seed)};
-        arguments.insert(arguments.end(), groups.begin(), groups.end());
-        return arguments;
-      },
-      [&](std::string_view line) {
-        const auto s = nlohmann::json::parse(line).get<GroupSample>();
-        const std::string group = s.body + ":" + s.figure;
-        log.sample(s);
-        results.samples[group].push_back(s.sample);
-        results.units[group + ":" + s.sample.task] = s.units;
-        if (group != last) log.advance(last = group);
-      });
+  for (int process = 0; process < processes; ++process) {
+    std::vector<std::string> arguments{"measure-topology",     "--process", std::to_string(process),  "--rounds",
+                                       std::to_string(rounds), "--seed",    std::to_string(plan.seed)};
+    arguments.insert(arguments.end(), groups.begin(), groups.end());
+    log.measure(arguments, [&](const nlohmann::json& json) {
+      const auto s = json.get<GroupSample>();
+      const std::string group = s.body + ":" + s.figure;
+      results.samples[group].push_back(s.sample);
+      results.units[group + ":" + s.sample.task] = s.units;
+      if (group != last) log.advance(last = group);
+    });
+  }
 
   Report report{.claims = claims_of(results)};
   report.tables = {{"figures", "Topology, side by side with CGAL", figures_table(results), figures_note()},

@@ -98,21 +98,5 @@ TEST(Processes, RunThisExecutableAgain) {
   EXPECT_NE(std::find(lines.begin(), lines.end(), "  RunThisExecutableAgain"), lines.end());
 }
 
-TEST(Processes, RepeatThisExecutableWithTheArgumentsOfEachNumber) {
-  const std::vector<std::string> filters{"Processes.Hand*", "Processes.Pass*", "Processes.Run*"};
-  std::vector<std::string> tests;
-  repeat_self(
-      3,
-      [&](int process) {
-        return std::vector<std::string>{"--gtest_list_tests",
-                                        "--gtest_filter=" + filters[static_cast<std::size_t>(process)]};
-      },
-      [&](std::string_view line) {
-        if (line.starts_with("  ")) tests.emplace_back(line.substr(2));
-      });
-  EXPECT_EQ(tests, (std::vector<std::string>{"HandOverEachLineTheLastOneToo", "HandOverLinesLongerThanAnyBuffer",
-                                             "PassArgumentsUntouched", "RunThisExecutableAgain"}));
-}
-
 }  // namespace
 }  // namespace dartboard::processes_test

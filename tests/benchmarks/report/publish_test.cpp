@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <exception>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/plain/error.h"
 #include "tests/support/folder_for_tests.h"
 
 namespace dartboard::publish_test {
@@ -25,9 +29,16 @@ struct Published {
 Published published(const Publication& how, const std::function<Report(StudyLog&)>& study) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  const int status = publish(how, study);
-  std::string err = testing::internal::GetCapturedStderr();
-  return {status, testing::internal::GetCapturedStdout(), std::move(err)};
+  int status = -1;
+  std::exception_ptr error;
+  try {
+    status = publish(how, study);
+  } catch (...) {
+    error = std::current_exception();
+  }
+  std::string err = testing::internal::GetCapturedStderr(), out = testing::internal::GetCapturedStdout();
+  if (error) std::rethrow_exception(error);
+  return {status, std::move(out), std::move(err)};
 }
 Published printed(const Report& report, bool json = false) {
   return published({.label = "test", .keeps_folder = false, .json = json}, [&](StudyLog&) { return report; });
@@ -170,8 +181,6 @@ TEST_F(Publish, KeepsWhatWasFinishedWhenTheRestFails) {
                  throw std::runtime_error("the rest");
                }),
                std::runtime_error);
-  testing::internal::GetCapturedStdout();
-  testing::internal::GetCapturedStderr();
   EXPECT_EQ(json_of(out() / "claims.json").size(), 1u);
 }
 
@@ -183,6 +192,64 @@ TEST_F(Publish, DrawsThePictures) {
   plot.series[0].colour = "#000000";
   EXPECT_EQ(kept([&](StudyLog&) { return Report{.pictures = {{"diagram", plot}}}; }).status, 0);
   EXPECT_TRUE(std::filesystem::exists(out() / "diagram.png"));
+}
+
+// ---- interrupted studies
+
+const std::vector<std::string> listing{"--gtest_list_tests", "--gtest_filter=PublishStatus.IsThatOfTheClaims"};
+
+/// The lines of a process of its own; the study ends before its time if `fails`.
+std::function<Report(StudyLog&)> listed(std::vector<std::string>& lines, bool fails = false) {
+  return [&lines, fails](StudyLog& log) {
+    log.run(listing, [&](std::string_view line) { lines.emplace_back(line); });
+    if (fails) throw std::runtime_error("ended");
+    return Report{};
+  };
+}
+
+TEST_F(Publish, KeepsTheLinesOfFinishedProcessesUntilTheStudyHasEnded) {
+  std::vector<std::string> lines;
+  EXPECT_THROW(kept(listed(lines, true)), std::runtime_error);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(text("run/children.jsonl").find("PublishStatus."), std::string::npos);
+  std::filesystem::remove_all(out());
+  kept(listed(lines));
+  EXPECT_FALSE(std::filesystem::exists(out() / "children.jsonl"));
+}
+
+TEST_F(Publish, TakesFinishedProcessesFromAnInterruptedStudyAndRunsTheOthers) {
+  std::vector<std::string> lines, again;
+  EXPECT_THROW(kept(listed(lines, true)), std::runtime_error);
+  const std::string file = (out() / "children.jsonl").string(), found = text("run/children.jsonl");
+  std::string changed = found;
+  changed.replace(changed.rfind("PublishStatus."), 14, "TakenFromThere");
+  std::ofstream(file) << changed << R"({"arguments": ["tor)";  // the program was ended while it wrote
+  const Publication how{.label = "test", .out = (folder_ / "second").string(), .continues = out().string()};
+  const Published second = published(how, listed(again));
+  EXPECT_NE(std::ranges::find(again, "TakenFromThere"), again.end());
+  EXPECT_NE(second.out.find("1 finished process taken from "), std::string::npos) << second.out;
+  EXPECT_EQ(json_of(folder_ / "second" / "manifest.json")["continues"]["processes"], 1);
+  // arguments that are not there are run
+  again.clear();
+  changed.replace(changed.find("IsThatOf"), 8, "IsAnyOf.");
+  std::ofstream(file) << changed;
+  const Publication third{.label = "test", .out = (folder_ / "third").string(), .continues = out().string()};
+  published(third, listed(again));
+  EXPECT_EQ(again, lines);
+}
+
+TEST_F(Publish, DoesNotContinueAStudyOfAnotherBuildOrOneThatHasEnded) {
+  std::vector<std::string> lines;
+  EXPECT_THROW(kept(listed(lines, true)), std::runtime_error);
+  const std::string file = (out() / "children.jsonl").string();
+  std::string changed = text("run/children.jsonl");
+  char& digit = changed[changed.find("fnv1a64:") + 8];
+  digit = digit == '0' ? '1' : '0';
+  std::ofstream(file) << changed;
+  const Publication how{.label = "test", .keeps_folder = false, .continues = out().string()};
+  EXPECT_THROW(published(how, listed(lines)), IoError);
+  std::filesystem::remove(file);
+  EXPECT_THROW(published(how, listed(lines)), IoError);
 }
 
 }  // namespace
