@@ -30,13 +30,13 @@ class FaceSet {
   std::vector<bool> in_;  // by slot<2>
 };
 
-/// The facets between two cells that are to come apart: one dart of each, its lowest, ascending. The program says of
-/// which cells that holds by their numbers, of the lower dart's cell first, as `[](std::uint32_t a, std::uint32_t b)`.
-template <class Map, class Apart>
-std::vector<Dart> facets_between(const MassSpringBody<Map, Held::by_every_dart>& body, Apart&& come_apart) {
+/// The facets between two cells for whose numbers `chosen(a, b)` holds, `a` being that of the lower dart: one dart of
+/// each facet, its lowest, ascending.
+template <class Map, class Chosen>
+std::vector<Dart> facets_between(const MassSpringBody<Map, Held::by_every_dart>& body, Chosen&& chosen) {
   std::vector<Dart> facets;
   for_each_inner_facet(body.map, [&](Dart d) {
-    if (come_apart(body.cell(body.map, d), body.cell(body.map, body.map.template alpha<Map::dimension>(d))))
+    if (chosen(body.cell(body.map, d), body.cell(body.map, body.map.template alpha<Map::dimension>(d))))
       facets.push_back(d);
   });
   return facets;

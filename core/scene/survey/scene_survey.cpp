@@ -51,16 +51,26 @@ std::string cheaper_integrator(const SceneFile& scene, const CellMaterials& mate
 }
 
 /// The size of the factor of implicit steps, where each takes a second or more; a body too small for that is not asked.
-std::string large_factor(const Simulation& simulation) {
+std::string large_factor(const SceneFile& scene, const Simulation& simulation) {
   constexpr std::size_t enough_vertices = 10'000;
   if (simulation.body().counts().vertices < enough_vertices) return "";
-  const std::optional<FactorForecast> factor = simulation.factor_forecast();
-  if (!factor || factor->seconds < 1.0) return "";
-  const auto numbers = static_cast<double>(factor->numbers);
-  return fmt::format(
-      "an implicit step has {:.3g} thousand unknowns here: a factor of its matrix has {:.3g} million numbers ({:.2g} GB) "
-      "and takes some {:.2g} s each time that it is made",
-      1e-3 * static_cast<double>(factor->unknowns), 1e-6 * numbers, 8e-9 * numbers, factor->seconds);
+  double unknowns = 3.0 * static_cast<double>(simulation.body().counts().vertices);
+  std::string size;
+  try {
+    const std::optional<FactorForecast> factor = simulation.factor_forecast();
+    if (!factor || factor->seconds < 1.0) return "";
+    unknowns = static_cast<double>(factor->unknowns);
+    const auto numbers = static_cast<double>(factor->numbers);
+    size = fmt::format("has {:.3g} million numbers ({:.2g} GB) and takes some {:.2g} s each time that it is made",
+                       1e-6 * numbers, 8e-9 * numbers, factor->seconds);
+  } catch (const SolverError&) {
+    size = "does not fit into memory";
+  }
+  const bool has_choice = std::ranges::any_of(integrators(), [&scene](const IntegratorEntry& entry) {
+    return entry.name == scene.integrator && entry.make_with != nullptr;
+  });
+  return fmt::format("an implicit step has {:.3g} thousand unknowns here: a factor of its matrix {}{}", 1e-3 * unknowns,
+                     size, has_choice ? "; \"solver\": \"conjugate-gradients\" needs none" : "");
 }
 
 }  // namespace
@@ -81,7 +91,7 @@ SceneSurvey survey_scene(const SceneFile& scene, const Problem& problem, const S
   }
   survey.stiff_bodies = find_stiff_bodies(scene, problem);
   survey.sags = find_sags(scene, problem);
-  for (std::string note : {cheaper_integrator(scene, materials, simulation), large_factor(simulation)})
+  for (std::string note : {cheaper_integrator(scene, materials, simulation), large_factor(scene, simulation)})
     if (!note.empty()) survey.notes.push_back(std::move(note));
   // steps too long and coordinates too large have warnings of their own
   const Preflight found = simulation.check_before_run();

@@ -16,9 +16,6 @@ std::vector<std::string> warnings_of(const SceneFile& scene, const SceneSurvey& 
 /// All but that of a step that is too long, for a scene whose step is still to be chosen.
 std::vector<std::string> warnings_but_of_step(const SceneFile& scene, const SceneSurvey& survey,
                                               const Simulation& simulation);
-/// Those that do not say that the step is too long: for one that is still to be chosen.
-std::vector<std::string> warnings_but_of_the_step(const SceneFile& scene, const SceneSurvey& survey,
-                                                  const Simulation& simulation);
 
 /// The step of a run compared with its motions: "0.12 of the longest stable step" for an explicit method, "at most
 /// 0.14" of it by the quick bound of a large body; "motions faster than 16 Hz are not resolved" for an implicit one,
