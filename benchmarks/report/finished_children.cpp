@@ -16,32 +16,38 @@ namespace {
 using Json = nlohmann::json;
 
 /// What times depend on, beside the arguments.
-Json measured_by() {
-  return {{"program", file_hash("/proc/self/exe")}, {"cpu", begin_manifest({}).at("machine").at("cpu")}};
+Json measured_by(const Json& study) {
+  return {
+      {"study", study}, {"program", file_hash("/proc/self/exe")}, {"cpu", begin_manifest({}).at("machine").at("cpu")}};
 }
 
 }  // namespace
 
-ChildrenLog::ChildrenLog(const RunFolder& folder) : lines_(folder.json_lines(file_name)) {
-  lines_.append(measured_by());
+ChildrenLog::ChildrenLog(const RunFolder& folder, const Json& study) : lines_(folder.json_lines(file_name)) {
+  lines_.append(measured_by(study));
 }
 
 void ChildrenLog::add(const std::vector<std::string>& arguments, const std::vector<std::string>& lines) {
   lines_.append({{"arguments", arguments}, {"lines", lines}});
 }
 
-FinishedChildren::FinishedChildren(const std::filesystem::path& folder) : folder_(folder) {
+FinishedChildren::FinishedChildren(const std::filesystem::path& folder, const Json& study) : folder_(folder) {
   const std::filesystem::path file = folder / ChildrenLog::file_name;
   std::ifstream in(file);
   std::string line;
   if (!std::getline(in, line))
-    throw IoError(fmt::format("{}: is not there; expected the folder of a study that was interrupted", file.string()));
-  const Json by = measured_by();
-  if (Json::parse(line, nullptr, false) != by)
-    throw IoError(
-        fmt::format("{}: was begun by another build of the program or on another processor; expected {}, since times "
-                    "are compared",
-                    file.string(), json_text(by)));
+    throw IoError(fmt::format(
+        "{}: {}; expected the folder of a study that was interrupted", folder.string(),
+        std::filesystem::is_directory(folder)
+            ? fmt::format("holds no {}, which only a study that was interrupted leaves", ChildrenLog::file_name)
+            : "there is no such folder"));
+  const Json found = Json::parse(line, nullptr, false), expected = measured_by(study);
+  for (const auto& [key, what] : {std::pair("study", "another study, or of other options"),
+                                  {"program", "another build of this program"},
+                                  {"cpu", "another processor"}})
+    if (!found.is_object() || !found.contains(key) || found.at(key) != expected.at(key))
+      throw IoError(
+          fmt::format("{}: is that of {}; expected {} {}", folder.string(), what, key, json_text(expected.at(key))));
   for (std::size_t number = 2; std::getline(in, line); ++number) {
     const Json child = Json::parse(line, nullptr, false);
     if (in.eof() && child.is_discarded()) break;  // the program was ended while it wrote

@@ -19,7 +19,8 @@ class ChildrenLog {
  public:
   static constexpr const char* file_name = "children.jsonl";
 
-  explicit ChildrenLog(const RunFolder& folder);
+  /// `study` names the study and its options.
+  ChildrenLog(const RunFolder& folder, const nlohmann::json& study);
   void add(const std::vector<std::string>& arguments, const std::vector<std::string>& lines);
 
  private:
@@ -29,8 +30,9 @@ class ChildrenLog {
 /// Those of a study that was interrupted.
 class FinishedChildren {
  public:
-  /// throws  IoError where the folder has none, or they are of another build of this program, or another processor
-  explicit FinishedChildren(const std::filesystem::path& folder);
+  /// throws  IoError where the folder has none, or they are of another study, of other options, of another build of this
+  ///         program, or another processor
+  FinishedChildren(const std::filesystem::path& folder, const nlohmann::json& study);
 
   /// The lines of the first child with these arguments that has not been taken yet.
   std::optional<std::vector<std::string>> take(const std::vector<std::string>& arguments);

@@ -57,7 +57,7 @@ class LastWords {
 class Publisher : public StudyLog {
  public:
   explicit Publisher(const Publication& how) : how_(how) {
-    if (!how.continues.empty()) earlier_.emplace(how.continues);
+    if (!how.continues.empty()) earlier_.emplace(how.continues, study());
     if (how.out.empty() && !how.keeps_folder) return;
     folder_.emplace(run_path(how.out, how.label));
     manifest_ = begin_manifest(how.facts);
@@ -78,10 +78,11 @@ class Publisher : public StudyLog {
     }
     if (!folder_) return;
     if (!children_) {
-      children_.emplace(*folder_);
-      last_words_.set(
-          fmt::format("\ndartboard: what was measured is kept; go on with the same command and --continue {}\n",
-                      folder_->path().string()));
+      children_.emplace(*folder_, study());
+      last_words_.set(fmt::format(
+          "\ndartboard: what was measured is kept. The same command goes on with it, with --continue {} and "
+          "another folder for --out, or none\n",
+          folder_->path().string()));
     }
     children_->add(arguments, lines);
   }
@@ -196,6 +197,7 @@ class Publisher : public StudyLog {
     return json;
   }
 
+  nlohmann::json study() const { return {{"label", how_.label}, {"quick", how_.quick}, {"seeds", how_.facts.seeds}}; }
   nlohmann::json earlier_manifest() const {
     std::ifstream in(earlier_->folder() / "manifest.json");
     return nlohmann::json::parse(in, nullptr, false);

@@ -375,7 +375,7 @@ TEST(CommandLine, SaysWhatEachSelectionOfASceneHolds) {
     "fixed": [{"plane": {"point": [0.3, 0, 0], "normal": [-1, 0, 0]}}, {"box": {"min": [0.90000001, 0, 0], "max": [2, 1, 1]}}],
     "events": [{"at": 0.005, "dissociate": {"plane": {"point": [0.5, 0, 0], "normal": [1, 0, 0]}}}]})");
   const std::string held = "/fixed/0: 16 of 44 vertices\n/fixed/1: 4 of 44 vertices\n",
-                    cut = "/events/0/dissociate: 2 of 78 faces between cells\n";
+                    cut = "/events/0/dissociate: 2 of 78 faces between cells at the start\n";
   for (const std::string verb : {"scene --check ", "explain ", "simulate "}) {
     const Answer answer = run(verb + scene.path.string(), "2>/dev/null");
     EXPECT_EQ(answer.status, 0) << answer.out;
@@ -569,7 +569,10 @@ TEST(Scene, KeysOfOneObjectAreItsSectionAlone) {
 TEST(Scene, KeysOfAnUnknownObjectAreAUsageErrorThatNamesAll) {
   const Answer answer = run("scene --keys refinement");
   EXPECT_EQ(answer.status, 2);
-  EXPECT_NE(answer.out.find("no section 'refinement'; expected one of: scene, body, "), std::string::npos)
+  EXPECT_NE(
+      answer.out.find(
+          "no object or key of scenes is called 'refinement'; expected a key, or one of the objects: scene, body, "),
+      std::string::npos)
       << answer.out;
 }
 

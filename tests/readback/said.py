@@ -88,7 +88,7 @@ class Said(unittest.TestCase):
         self.assertRegex(said, "jump at 1 event that dissociates: mass ")
 
     def test_the_first_lines_name_the_scene_and_how_it_is_run(self):
-        for events, storage in (([], "no map"), ([{"at": 0.001, "remove": {"ids": [0]}}], "tetrahedral 3-g-map")):
+        for events, storage in (([], "no map is needed"), ([{"at": 0.001, "remove": {"ids": [0]}}], "tetrahedral 3-g-map")):
             lines = self.print_(box(events=events, integrator="verlet")).stdout.splitlines()
             self.assertEqual(lines[0], "x")
             self.assertRegex(lines[1], r"^%s, verlet, h = 0\.001 s \(0\.\d+ of the longest stable step\)$" % storage)

@@ -57,6 +57,7 @@ void check_scene(const std::string& given, bool as_json) {
        counted(n.components, "component"), steps, counted(scene.events.size(), "event"));
   tell("{}\n", in_words(simulation.body()));
   for (const SelectionCount& count : survey.selections) tell("{}\n", to_string(count));
+  for (const std::string& note : survey.notes) tell("note: {}\n", note);
   for (const std::string& warning : warnings) tell(stderr, "warning: {}\n", warning);
 }
 

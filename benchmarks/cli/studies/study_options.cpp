@@ -16,7 +16,7 @@ void add_study_options(CLI::App& verb, StudyOptions& options, const StudyTexts& 
     verb.add_option(
         "--continue", options.continues,
         "the folder of the same study, with the same options, when it was interrupted: what its processes had "
-        "measured is taken from there");
+        "measured is taken from there. All is written to --out, a folder of its own");
   if (!texts.seed.empty()) verb.add_option("--seed", options.seed, fmt::format("seed of {} [1]", texts.seed));
   verb.add_flag("--json", options.json, "print JSON on standard output, and all else on standard error");
 }

@@ -77,7 +77,9 @@ std::string to_string(const SelectionCount& count) {
   const bool some_axes = !count.along.empty() && count.along != name(all_axes);
   return fmt::format("{}: {} of {} {}{}{}{}", count.path, count.selected, count.all, count.of_what,
                      some_axes ? ", along " : "", some_axes ? count.along : "",
-                     count.moves && count.selected == 0 ? " at the start; it acts where the body is then" : "");
+                     !count.moves          ? ""
+                     : count.selected == 0 ? " at the start; it acts where the body is then"
+                                           : " at the start");
 }
 
 std::vector<SelectionCount> count_selections(const SceneFile& scene, const Mesh& mesh) {

@@ -238,16 +238,25 @@ TEST_F(Publish, TakesFinishedProcessesFromAnInterruptedStudyAndRunsTheOthers) {
   EXPECT_EQ(again, lines);
 }
 
-TEST_F(Publish, DoesNotContinueAStudyOfAnotherBuildOrOneThatHasEnded) {
+TEST_F(Publish, ContinuesOnlyTheSameStudyOfTheSameBuildThatHasNotEnded) {
   std::vector<std::string> lines;
   EXPECT_THROW(kept(listed(lines, true)), std::runtime_error);
   const std::string file = (out() / "children.jsonl").string();
-  std::string changed = text("run/children.jsonl");
+  const std::string kept_before = text("run/children.jsonl");
+  std::string changed = kept_before;
   char& digit = changed[changed.find("fnv1a64:") + 8];
   digit = digit == '0' ? '1' : '0';
   std::ofstream(file) << changed;
   const Publication how{.label = "test", .keeps_folder = false, .continues = out().string()};
   EXPECT_THROW(published(how, listed(lines)), IoError);
+  std::ofstream(file) << kept_before;
+  Publication other = how;
+  other.quick = true;
+  EXPECT_THROW(published(other, listed(lines)), IoError);
+  other = how;
+  other.label = "other";
+  EXPECT_THROW(published(other, listed(lines)), IoError);
+  EXPECT_EQ(published(how, listed(lines)).status, 0);
   std::filesystem::remove(file);
   EXPECT_THROW(published(how, listed(lines)), IoError);
 }

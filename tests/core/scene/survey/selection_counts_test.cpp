@@ -63,8 +63,8 @@ TEST(SelectionCounts, OfCutsAreTheFacesThatTheBodyFindsAtRest) {
   const SceneSurvey survey = survey_of(parse(json));
   for (const SelectionCount& count : survey.selections) said.push_back(to_string(count));
   // inside each cube 6 faces between its six tetrahedra, between two cubes 2
-  EXPECT_EQ(said, (Lines{"/events/0/dissociate: 2 of 78 faces between cells",
-                         "/events/1/dissociate: 1 of 78 faces between cells",
+  EXPECT_EQ(said, (Lines{"/events/0/dissociate: 2 of 78 faces between cells at the start",
+                         "/events/1/dissociate: 1 of 78 faces between cells at the start",
                          "/events/2/dissociate: 0 of 78 faces between cells at the start; it acts where the body is "
                          "then"}));
 }
