@@ -100,7 +100,7 @@ std::vector<std::uint64_t> steps_of(const std::vector<double>& times, const Reco
     steps.push_back(step_of_time(time, h));
   }
   std::ranges::sort(steps);
-  steps.erase(std::ranges::unique(steps).begin(), steps.end());
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
   return steps;
 }
 
