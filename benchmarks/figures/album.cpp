@@ -13,21 +13,8 @@ std::vector<std::uint64_t> even_steps(std::uint64_t steps, std::uint64_t picture
 }
 
 Album::Album(const Simulation& simulation, std::vector<std::uint64_t> steps, const Look& look)
-    : steps_(std::move(steps)), fields_(BodyFacets::fields(look)), facets_(look, frame_of(simulation)) {
-  take(simulation);  // by which colours of later ones are chosen
-  if (steps_.empty() || steps_[0] > 0) panels_.clear();
-}
-
-void Album::stepped(const Simulation& simulation) {
-  const std::uint64_t n = simulation.steps_done();
-  while (next_ < steps_.size() && steps_[next_] < n) ++next_;
-  if (next_ < steps_.size() && steps_[next_] == n) take(simulation);
-}
-
-void Album::ended(const Simulation& simulation) {
-  while (panels_.size() > 1 && panels_.back().time > simulation.time()) panels_.pop_back();
-  const bool is_early = !steps_.empty() && simulation.steps_done() < steps_.back();
-  if (panels_.empty() || (is_early && panels_.back().time < simulation.time())) take(simulation);
+    : PicturesOfRun(std::move(steps)), fields_(BodyFacets::fields(look)), facets_(look, simulation.frame(fields_)) {
+  begin(picture_of(simulation));
 }
 
 Look look_of(const SceneFile& scene, ColourBy colour, const Eigen::Vector3d& from) {

@@ -2,29 +2,15 @@
 // The visible facets of bodies, and their colours.
 
 #include <cstdint>
-#include <set>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "benchmarks/figures/body_panel.h"
+#include "benchmarks/figures/frame_facets.h"
 #include "core/scene/body/frame.h"
 
 namespace dartboard {
-
-/// Gives each component of a body a number that stays with it: where it is divided, the largest part keeps the number,
-/// and the others have new ones, larger parts first. In the first frame they are those of the frame.
-class LastingComponents {
- public:
-  /// By component of the frame.
-  /// pre  frames come in the order of their times
-  std::vector<std::uint32_t> of(const Frame& frame);
-
- private:
-  std::unordered_map<std::uint64_t, std::uint32_t> before_;  // the number of the component of each cell
-  std::uint32_t count_ = 0;
-};
 
 /// The facets of one run.
 ///
@@ -33,13 +19,14 @@ class LastingComponents {
 /// vertices of these are dots, attachments are lines.
 class BodyFacets {
  public:
-  using Key = std::vector<std::uint32_t>;
-
   BodyFacets(const Look& look, const Frame& first);
 
   /// The fields of frames that pictures show.
   static FrameFields fields(const Look& look) {
-    return {.held = true, .stress = look.colour == ColourBy::stress, .attachments = true};
+    return {.held = true,
+            .stress = look.colour == ColourBy::stress,
+            .contact = look.colour == ColourBy::contact,
+            .attachments = true};
   }
   /// pre  frames come in the order of their times, the first one included
   BodyPanel of(const Frame& frame);
@@ -47,7 +34,7 @@ class BodyFacets {
  private:
   PictureView view_;
   ColourBy colour_;
-  std::set<Key> skin_;  // the facets of the boundary at the start
+  FrameFacets facets_;
   LastingComponents components_;
 };
 

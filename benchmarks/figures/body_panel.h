@@ -2,18 +2,16 @@
 // The facets of bodies and obstacles as pictures show them.
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "benchmarks/figures/frame_facets.h"
 #include "benchmarks/figures/picture_view.h"
 #include "core/contact/obstacle.h"
 
 namespace dartboard {
-
-/// The quantity that gives the parts of bodies their colours.
-enum class ColourBy { component, material, speed, stress };
 
 /// How a scene is shown, the same at all times.
 struct Look {
@@ -27,7 +25,7 @@ std::uint32_t lit(std::uint32_t colour, double light);
 
 /// A polygon, a line, or a dot.
 struct DrawnFacet {
-  static constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double no_value = FrameValues::none;
 
   std::vector<Eigen::Vector3d> corners{};  // [m] as seen; two of them: a line, one: a dot
   std::uint32_t base = 0;                  // its colour, 0xrrggbb, in full light
@@ -54,6 +52,8 @@ struct BodyPanel {
 namespace colours {
 inline constexpr std::uint32_t inside = 0xc8503c, held = 0x303030, driven = 0xd0208f, held_in_part = 0x8a8a8a,
                                attached = 0x1f7a3a, obstacle = 0xd3d3d3;
+/// Of components and materials, which begin again after the last.
+inline constexpr std::array numbers{0x7ba7d9u, 0xe0b15au, 0x86bf7cu, 0xb18cc8u, 0x5fb8b3u, 0xd98ba5u, 0xa8a878u};
 }
 
 }  // namespace dartboard

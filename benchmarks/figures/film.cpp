@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <system_error>
 
 #include "benchmarks/figures/body_picture.h"
 #include "benchmarks/figures/gnuplot.h"
@@ -44,10 +43,7 @@ std::string draw_film(std::span<const BodyPanel> panels, const Look& look, const
   write_plot_file(folder / data.file(), data.text());
   write_plot_file(folder / (name + ".gnuplot"), script + "unset output\n");
   std::string trouble = run_gnuplot(gnuplot, folder, name);
-  if (trouble.empty()) {  // together these are ten times as large as the film
-    std::error_code ignored;
-    for (const std::string& used : {data.file(), name + ".gnuplot"}) std::filesystem::remove(folder / used, ignored);
-  }
+  if (trouble.empty()) remove_drawn(folder, name);  // together these are ten times as large as the film
   return trouble;
 }
 

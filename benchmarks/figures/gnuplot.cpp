@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "benchmarks/harness/processes.h"
@@ -84,12 +85,13 @@ std::string DataBlocks::add(const std::string& what, const std::string& lines) {
 
 std::string plot_element(const PlotSeries& s, const std::string& data) {
   const std::string title = s.title.empty() ? "notitle" : "title " + gnuplot_string(shortened(drawn_text(s.title), 80));
-  std::string look = s.staircase                     ? "steps"
+  std::string look = s.filled                        ? "filledcurves y1=0"
+                     : s.staircase                   ? "steps"
                      : s.width > 0.0 && s.symbol > 0 ? "linespoints"
                      : s.width > 0.0                 ? "lines"
                                                      : "points";
   look += " linecolor rgb " + colour(s);
-  if (s.width > 0.0) look += fmt::format(" linewidth {:g}", s.width);
+  if (s.width > 0.0 && !s.filled) look += fmt::format(" linewidth {:g}", s.width);
   if (!s.dash.empty()) look += fmt::format(" dashtype \"{}\"", s.dash);
   if (s.symbol > 0) look += fmt::format(" pointtype {} pointsize {:g}", s.symbol, s.size);
   std::string element = fmt::format("{} using 1:2 with {} {}", data, look, title);
@@ -120,6 +122,11 @@ std::string run_gnuplot(const std::string& gnuplot, const std::filesystem::path&
     return fmt::format("no picture of {}: {}{}; its data and script are kept", name, error.what(), said);
   }
   return "";
+}
+
+void remove_drawn(const std::filesystem::path& folder, const std::string& name) {
+  std::error_code ignored;
+  for (const char* end : {".dat", ".gnuplot"}) std::filesystem::remove(folder / (name + end), ignored);
 }
 
 std::string for_both_pictures(const std::string& commands, const std::string& name, int width, int height) {

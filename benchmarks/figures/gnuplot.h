@@ -47,6 +47,9 @@ void write_plot_file(const std::filesystem::path& file, const std::string& text)
 /// returns what went wrong, in a sentence; empty when all is well
 std::string run_gnuplot(const std::string& gnuplot, const std::filesystem::path& folder, const std::string& name);
 
+/// Remove the data and the script of a picture, where these can be had again.
+void remove_drawn(const std::filesystem::path& folder, const std::string& name);
+
 /// The commands, which plot, once for `name`.png and once for `name`.svg.
 std::string for_both_pictures(const std::string& commands, const std::string& name, int width, int height);
 /// "set terminal ..." for a PNG or an SVG of this size.

@@ -80,9 +80,10 @@ std::string panels_script(const Panels& panels, const std::string& name) {
                                       {svg_terminal(panels.width, panels.height), "svg"}}) {
     script += fmt::format(
         "set terminal {}\nset output {}\n"
-        "set multiplot layout {},{} rowsfirst margins 0.055,{},0.075,0.9 spacing 0.055,0.13 title {} noenhanced font "
-        "\",17\"\n",
+        "set multiplot layout {},{} rowsfirst margins 0.055,{},{:.4g},{:.4g} spacing 0.055,{:.4g} title {} noenhanced "
+        "font \",17\"\n",
         terminal, plot_source(fmt::format("{}.{}", name, end)), rows, panels.columns, fields ? 0.925 : 0.985,
+        (panels.between - 55.0) / panels.height, 1.0 - 100.0 / panels.height, 1.0 * panels.between / panels.height,
         quoted_title(panels.title, panels.width, 17.0, 1));
     DataBlocks data(name);
     for (std::size_t k = 0; k < panels.panels.size(); ++k) script += panel_script(panels, k, data);

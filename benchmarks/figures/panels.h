@@ -39,6 +39,7 @@ struct Panels {
   double field_low = -1.0, field_high = 1.0;
   std::string field_label;
   int width = 1800, height = 1000;  // pixels of the PNG
+  int between = 130;                // of them, between rows
 };
 
 /// gnuplot's script for `name`.svg and `name`.png; the data of the panels are the blocks of

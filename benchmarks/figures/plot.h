@@ -23,6 +23,7 @@ struct PlotSeries {
   double opacity = 1.0;
   bool slanted = false;    // labels, above and at 45 degrees
   bool staircase = false;  // a line that keeps the y of a point up to the x of the next
+  bool filled = false;     // an area between the points and y = 0
 };
 
 struct Plot {

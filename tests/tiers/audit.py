@@ -42,6 +42,7 @@ PARTS = [
     suite("sanitizers-core", 18, ["--preset", "asan", "--only", "core"],
           "core and the witnesses, by Clang, under its address and undefined-behaviour sanitizers"),
     suite("verbs", 3, ["--only", "verbs"], "every verb once, every mesh format and hostile names through those that take them"),
+    suite("browser", 1, ["--only", "browser"], "the page of a run, in a headless Chromium"),
     suite("long", 1, ["--only", "long"], "tests that take more than a few seconds each"),
     suite("lint", 4, ["--preset", "lint", "--only", "lint"], "clang-tidy over the twenty sources changed last"),
     suite("faults", 7, ["--only", "faults"], "seeded faults: each claim and each verb that judges has one that it must see"),

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "benchmarks/player/player_page.h"
 #include "core/base/folder_claim.h"
 #include "core/plain/error.h"
 #include "core/scene/output/scene_output.h"
@@ -26,7 +27,8 @@ bool is_of_a_run(const fs::path& file) {
   constexpr std::array drawn{".png", ".svg", ".gif", ".gnuplot", ".dat"};
   if (name == "manifest.json" || name == "summary.json" || name == checkpoint_name || SceneOutput::writes(name))
     return true;
-  const bool is_drawn = name.starts_with("picture") || name.starts_with("film");
+  if (extension == ".html") return is_page(file);
+  const bool is_drawn = name.starts_with("picture") || name.starts_with("film") || name.starts_with("curves");
   return is_drawn && std::ranges::find(drawn, extension) != drawn.end();
 }
 

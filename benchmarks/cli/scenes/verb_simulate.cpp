@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -20,11 +21,13 @@
 #include "benchmarks/figures/album.h"
 #include "benchmarks/figures/body_picture.h"
 #include "benchmarks/figures/film.h"
+#include "benchmarks/figures/run_diagrams.h"
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/manifest.h"
 #include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/tell.h"
+#include "benchmarks/player/player_page.h"
 #include "core/base/counted.h"
 #include "core/base/thread_team.h"
 #include "core/plain/error.h"
@@ -38,7 +41,7 @@ namespace dartboard {
 namespace {
 
 struct SimulateOptions {
-  std::string scene, out, continued;
+  std::string scene, out, continued, player;
   std::string colour = "component";
   std::vector<double> times, seen_from;
   bool json = false, quick = false, picture = false, film = false, replace = false;
@@ -54,7 +57,8 @@ struct SimulateOptions {
 const std::map<std::string, ColourBy> colours_by_name{{"component", ColourBy::component},
                                                       {"material", ColourBy::material},
                                                       {"speed", ColourBy::speed},
-                                                      {"stress", ColourBy::stress}};
+                                                      {"stress", ColourBy::stress},
+                                                      {"contact", ColourBy::contact}};
 std::vector<std::string> colour_names() {
   std::vector<std::string> names;
   for (const auto& [name, colour] : colours_by_name) names.push_back(name);
@@ -68,6 +72,12 @@ class Watcher : public RunWatcher {
       : pictures_(std::move(pictures)), progress_(progress), steps_per_report_(steps_per_report) {}
   bool takes_frames() const override { return false; }
   bool interrupts() override { return Interrupt::asked(); }
+  void diagnostics(const Diagnostics& row) override {
+    for (RunWatcher* picture : pictures_) picture->diagnostics(row);
+  }
+  void probes(const ProbeRow& row) override {
+    for (RunWatcher* picture : pictures_) picture->probes(row);
+  }
   void stepped(const Simulation& simulation) override {
     for (RunWatcher* picture : pictures_) picture->stepped(simulation);
     if (simulation.steps_done() % steps_per_report_ == 0)
@@ -117,6 +127,14 @@ RecordedRun make_run(const SimulateOptions& options, const StepChoice& choose_st
                      {.folder = options.out, .most_steps = options.most_steps(), .choose_step = choose});
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
 /// The manifest of a continued run, with the inputs of the continuation.
 nlohmann::json continued_manifest(const std::filesystem::path& folder, const Outcome& outcome) {
   const std::filesystem::path file = folder / "manifest.json";
@@ -158,13 +176,18 @@ void simulate(const SimulateOptions& options, const StepChoice& choose_step, Out
   // in a continued run, too, pictures begin at its start, where nothing has been cut
   const Look look = look_of(scene, colours_by_name.at(options.colour), direction_of(options.seen_from));
   std::optional<Album> picture, film;
+  RowsOfRun rows;
   std::vector<RunWatcher*> pictures;
   if (options.picture) {
     auto steps = options.times.empty() ? even_steps(run.last_step(), 3) : steps_of(options.times, run);
     pictures.push_back(&picture.emplace(simulation, std::move(steps), look));
+    pictures.push_back(&rows);
   }
   if (options.film)
     pictures.push_back(&film.emplace(simulation, even_steps(run.last_step(), most_film_pictures), look));
+  std::optional<RecordedFrames> player;
+  if (!options.player.empty())
+    pictures.push_back(&player.emplace(simulation, even_steps(run.last_step(), most_player_pictures), scene));
   // the folder comes last: a wrong scene leaves nothing behind
   nlohmann::json manifest;
   if (!options.continued.empty()) {
@@ -216,20 +239,29 @@ void simulate(const SimulateOptions& options, const StepChoice& choose_step, Out
   outcome.exit_code = run.result().interrupted ? Interrupt::exit_code() : run.holds() ? exit_agrees : exit_disagrees;
   // pictures of an earlier part of the run stay
   const std::string from_step = run.first_step() > 0 ? fmt::format("_from_step_{}", run.first_step()) : "";
+  const auto drawn = [&](const std::string& trouble, const std::string& sentence) {
+    report.picture += (report.picture.empty() ? "" : "\n") + (trouble.empty() ? sentence : trouble);
+    picture_missing(outcome, trouble);
+  };
   if (picture) {
     picture->ended(simulation);
-    const std::string name = "picture" + from_step;
-    const std::string trouble = draw_bodies(picture->panels(), look, scene.name, run.folder(), name);
-    report.picture = trouble.empty() ? fmt::format("{0}.png and {0}.svg drawn there.", name) : trouble;
-    picture_missing(outcome, trouble);
+    const std::string name = "picture" + from_step, curves = "curves" + from_step;
+    drawn(draw_bodies(picture->pictures(), look, scene.name, run.folder(), name),
+          fmt::format("{0}.png and {0}.svg drawn there.", name));
+    if (rows.are_curves())
+      drawn(draw_diagrams(rows.diagrams(scene, simulation.dimension()), scene.name, run.folder(), curves),
+            fmt::format("{0}.png and {0}.svg drawn there, of its diagnostics.", curves));
   }
   if (film) {
     film->ended(simulation);
     const std::string name = "film" + from_step;
-    const std::string trouble = draw_film(film->panels(), look, scene.name, run.folder(), name);
-    report.picture += fmt::format("{}{}", report.picture.empty() ? "" : "\n",
-                                  trouble.empty() ? fmt::format("{}.gif drawn there.", name) : trouble);
-    picture_missing(outcome, trouble);
+    drawn(draw_film(film->pictures(), look, scene.name, run.folder(), name), fmt::format("{}.gif drawn there.", name));
+  }
+  if (player) {
+    player->ended(simulation);
+    const PlayedRun played{scene, look, lines_of(opening), summary_of(report).rows()};
+    drawn(write_page("player", player_page(*player, played), options.player),
+          fmt::format("{} plays it in a browser.", options.player));
   }
   if (!run.folder().empty()) {
     write_whole(run.folder() / "summary.json", json_text(to_json(report), 2) + "\n");
@@ -261,15 +293,22 @@ void add_simulate(CLI::App& app, Outcome& outcome, StepChoice choose_step) {
       "'duration'");
   continued->excludes(scene)->excludes(out);
   verb->add_flag(
-          "--replace", options->replace,
-          "remove the files of an earlier run from the folder of --out; nothing is removed if it holds any others")
-      ->needs(out);
-  verb->add_flag("--picture", options->picture,
-                 "draw the body at four times of the run, or at those of --times, into that folder");
+      "--replace", options->replace,
+      "remove the files of an earlier run from the folder of --out, and nothing if it holds any others; write the "
+      "page of --player over an earlier one");
+  verb->add_flag(
+      "--picture", options->picture,
+      "draw the body at four times of the run, or at those of --times, into that folder, and its diagnostics as "
+      "curves, where the scene has rows of them (output.diagnostics_every)");
   verb->add_flag(
       "--film", options->film,
       "draw the body as it moves, an animated GIF, into that folder: as fast as the motion, but 4 seconds at least "
       "and 12 at most");
+  verb->add_option(
+          "--player", options->player,
+          "write a page that plays the run in a browser, without a network: turn the bodies, colour them, follow a "
+          "vertex, see energy, momentum and contact as curves, put another player beside it")
+      ->type_name("FILE.html");
   auto* times = verb->add_option("--times", options->times, "the times [s] of the picture: 0,0.35,1 [four, evenly]")
                     ->delimiter(',')
                     ->type_name("T1,T2,..");
@@ -283,8 +322,8 @@ void add_simulate(CLI::App& app, Outcome& outcome, StepChoice choose_step) {
           ->type_name("X,Y,Z");
   auto* colour =
       verb->add_option("--colour", options->colour,
-                       "colour the bodies of pictures and films by component, material, speed or (von Mises) stress "
-                       "[component]");
+                       "colour the bodies of pictures and films by component, material, speed, (von Mises) stress or "
+                       "contact (force) [component]");
   colour->check(CLI::IsMember(colour_names()));
   verb->add_option("--steps", options->steps, "stop after so many steps");
   verb->add_option(
@@ -301,12 +340,15 @@ void add_simulate(CLI::App& app, Outcome& outcome, StepChoice choose_step) {
       for (const auto& [asked, name] : {std::pair(options->picture, "--picture"), {options->film, "--film"}})
         if (asked) throw CLI::RequiresError(name, "--out or --continue");
     for (const CLI::Option* of_pictures : {colour, seen_from})
-      if (*of_pictures && !options->picture && !options->film)
+      if (*of_pictures && !options->picture && !options->film && (of_pictures == colour || options->player.empty()))
         throw CLI::RequiresError(of_pictures->get_name(), "--picture or --film");
     if (*times && !options->picture) throw CLI::RequiresError("--times", "--picture");
     if (!options->replace && !options->out.empty() && is_run_folder(options->out))
       throw IoError(fmt::format(
           "{}: holds an earlier run; expected a new or empty folder for the results, or --replace", options->out));
+    if (options->replace && options->out.empty() && options->player.empty())
+      throw CLI::RequiresError("--replace", "--out or --player");
+    if (!options->player.empty()) require_writable_page(options->player, options->replace, options->out);
     simulate(*options, choose_step, outcome);
   });
 }

@@ -39,7 +39,7 @@ std::pair<ShownScene, BodyStrip> show(const std::filesystem::path& file) {
     if (row.holds) ++shown.held;
   }
   album.ended(simulation);
-  return {shown, {album.panels(), look, shown.scene.name}};
+  return {shown, {album.pictures(), look, shown.scene.name}};
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ std::vector<BodyPanel> film_of(const Json& scene, std::uint64_t steps) {
     film.stepped(simulation);
   }
   film.ended(simulation);
-  return film.panels();
+  return film.pictures();
 }
 
 TEST(Film, OfFewStepsHasAFrameOfEach) {
@@ -54,9 +54,9 @@ TEST(Film, EndsWithTheLastGoodStateOfAMotionThatDiverges) {
   Simulation simulation(moving::parse(scene));
   Album film(simulation, even_steps(100, most_film_pictures), {});
   while (!simulation.advance()) film.stepped(simulation);
-  ASSERT_GT(film.panels().back().time, simulation.time());  // the simulation was taken back
+  ASSERT_GT(film.pictures().back().time, simulation.time());  // the simulation was taken back
   film.ended(simulation);
-  EXPECT_EQ(film.panels().back().time, simulation.time());
+  EXPECT_EQ(film.pictures().back().time, simulation.time());
 }
 
 std::vector<double> times_of(const std::vector<std::uint64_t>& steps, int taken) {
@@ -68,7 +68,7 @@ std::vector<double> times_of(const std::vector<std::uint64_t>& steps, int taken)
   }
   album.ended(simulation);
   std::vector<double> times;
-  for (const BodyPanel& panel : album.panels()) times.push_back(panel.time);
+  for (const BodyPanel& panel : album.pictures()) times.push_back(panel.time);
   return times;
 }
 

@@ -172,11 +172,11 @@ TEST(ScenePicture, ColoursFacetsByTheMeanOfTheirCornersInOneScaleForAllTimes) {
       album.stepped(simulation);
     }
     const Frame frame = simulation.frame({.stress = true});
-    for (const BodyPanel& panel : album.panels())
+    for (const BodyPanel& panel : album.pictures())
       for (const DrawnFacet& facet : panel.facets) largest = std::max(largest, facet.value);
     ASSERT_GT(largest, 0.0);
-    EXPECT_EQ(album.panels()[0].unit, by == ColourBy::speed ? "m/s" : "Pa");
-    const Drawing drawing = drawing_of(album.panels(), look, 0.1);
+    EXPECT_EQ(album.pictures()[0].unit, by == ColourBy::speed ? "m/s" : "Pa");
+    const Drawing drawing = drawing_of(album.pictures(), look, 0.1);
     EXPECT_EQ(drawing.largest, largest);
     for (const DrawnFacet& facet : drawing.panels.back().facets) {
       double mean = 0.0;

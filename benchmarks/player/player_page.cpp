@@ -1,0 +1,98 @@
+#include "benchmarks/player/player_page.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "benchmarks/checkout/source_folder.h"
+#include "benchmarks/harness/json_text.h"
+#include "benchmarks/harness/processes.h"
+#include "benchmarks/harness/scratch_folder.h"
+#include "core/plain/error.h"
+#include "core/scene/output/atomic_file.h"
+
+namespace dartboard {
+namespace {
+
+/// The first line of each page has it, after the type of the document.
+constexpr char made_here[] = "<!-- Made by Dartboard. -->";
+
+}  // namespace
+
+nlohmann::json player_page(const RecordedFrames& frames, const PlayedRun& run) {
+  // four letters of base64 for three bytes, next to 1.15 MB of libraries
+  constexpr std::size_t most_bytes = 1'300'000;
+  const auto numbers = [](const Eigen::Vector3d& x) { return nlohmann::json{x.x(), x.y(), x.z()}; };
+  const PictureView& view = run.look.view;
+  const Eigen::Vector3d towards(view.seen(Eigen::Vector3d::UnitX()).z(), view.seen(Eigen::Vector3d::UnitY()).z(),
+                                view.seen(Eigen::Vector3d::UnitZ()).z());
+  const Eigen::Vector3d& gravity = run.scene.gravity;
+  const Eigen::Vector3d up = gravity.isZero(0.0) ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d(-gravity.normalized());
+  return {{"format", "dartboard-player"},
+          {"version", 1},
+          {"program", DARTBOARD_VERSION},
+          {"title", run.scene.name},
+          {"about", run.scene.about},
+          {"facts", run.facts},
+          {"table", run.table},
+          {"towards", numbers(towards)},
+          {"up", numbers(up)},
+          {"colours",
+           {{"numbers", colours::numbers},
+            {"shades", {shade_of(0.0), shade_of(0.25), shade_of(0.5), shade_of(0.75), shade_of(1.0)}},
+            {"inside", colours::inside},
+            {"held", colours::held},
+            {"driven", colours::driven},
+            {"held_in_part", colours::held_in_part},
+            {"attached", colours::attached},
+            {"obstacle", colours::obstacle}}},
+          {"run", frames.json(most_bytes)}};
+}
+
+bool is_page(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string first;
+  return std::getline(in, first) && first.ends_with(made_here);
+}
+
+void require_writable_page(const std::filesystem::path& file, bool replace, const std::filesystem::path& made_later) {
+  std::error_code error;
+  const auto as_folder = [](const std::filesystem::path& path) { return (path / "").lexically_normal(); };
+  if (!std::filesystem::exists(file, error)) {
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (as_folder(folder) != as_folder(made_later) && !std::filesystem::is_directory(folder, error))
+      throw IoError(
+          fmt::format("{}: there is no folder {}; expected one for the page", file.string(), folder.string()));
+    return;
+  }
+  if (!replace) throw IoError(fmt::format("{}: exists; expected a new file for the page, or --replace", file.string()));
+  if (!is_page(file))
+    throw IoError(
+        fmt::format("{}: is no page made by Dartboard; expected a new file, or such a page to replace", file.string()));
+}
+
+std::string write_page(const std::string& name, const nlohmann::json& page, const std::filesystem::path& file) {
+  const ScratchFolder scratch("page");
+  write_whole(scratch.path() / "page.json", json_text(page, -1));
+  // that of Debian's packages; another python3 of the PATH may lack them
+  const char* debians = "/usr/bin/python3";
+  std::string said;
+  try {
+    run_program(
+        std::filesystem::exists(debians) ? debians : "python3",
+        {"-B", (source_folder() / "benchmarks/player/make_page.py").string(), name + ".html", "page.json", "page.html"},
+        [&](std::string_view line) { said = line; }, Stderr::as_output, scratch.path());
+  } catch (const ProcessError& error) {
+    return fmt::format("no page {}: {}", file.string(), said.empty() ? error.what() : said);
+  }
+  std::ifstream in(scratch.path() / "page.html", std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in || text.empty()) throw IoError(fmt::format("{}: cannot be read", (scratch.path() / "page.html").string()));
+  write_whole(file, text);
+  return "";
+}
+
+}  // namespace dartboard
