@@ -33,6 +33,7 @@ inline constexpr std::array verb_names{
     VerbName{"explain-dt",
              "Which springs, elements and vertices limit the time step of a scene, and what changing them would buy."},
     VerbName{"gallery", "Run every scene that comes with the program, judge it, and draw it."},
+    VerbName{"report", "Make the page of one study, or of several, from the folders that they have left."},
     VerbName{"mesh", "Look at a mesh file, or at the formats that are read.", true},
     VerbName{"list", "List scenes, contenders, integrators and claims."},
 };

@@ -18,7 +18,9 @@
 #include "benchmarks/harness/progress.h"
 #include "benchmarks/harness/run_folder.h"
 #include "benchmarks/harness/tell.h"
+#include "benchmarks/report/findings.h"
 #include "benchmarks/report/finished_children.h"
+#include "benchmarks/report/report_page.h"
 #include "core/base/counted.h"
 
 namespace dartboard {
@@ -63,6 +65,7 @@ class Publisher : public StudyLog {
     manifest_ = begin_manifest(how.facts);
     manifest_["quick"] = how.quick;
     folder_->write_manifest(manifest_);
+    findings_ = begin_findings(how.label);
   }
 
   void run(const std::vector<std::string>& arguments, const LineSink& on_line) override {
@@ -125,18 +128,24 @@ class Publisher : public StudyLog {
                       earlier_->folder().string()));
       manifest_["continues"] = {{"processes", earlier_->taken()}, {"manifest", earlier_manifest()}};
     }
+    bool has_page = false;
     if (folder_) {
       if (children_) std::filesystem::remove(folder_->path() / ChildrenLog::file_name);
       manifest_.update(nlohmann::json(last.facts));
       finish_manifest(manifest_);
       folder_->write_manifest(manifest_);
+      const std::string trouble = write_report({folder_->path()}, folder_->path() / report_name);
+      has_page = trouble.empty();
+      keep_trouble(trouble);
     }
     if (how_.json) tell("{}\n", json_text(numbers(last), 2));
     if (!last.sentence.empty())
       say(last.sentence);
     else if (!all_.claims.empty())
       say((how_.quick ? "This was a quick run. " : "") + in_words(all_.claims));
-    if (folder_) say(fmt::format("Written to {}.", folder_->path().string()));
+    if (folder_)
+      say(fmt::format("Written to {}{}.", folder_->path().string(),
+                      has_page ? fmt::format(", with its page, {}", report_name) : ""));
     if (exit_code(all_) != 0) return exit_disagrees;
     return all_.troubles.empty() ? exit_agrees : exit_io;
   }
@@ -183,10 +192,16 @@ class Publisher : public StudyLog {
     for (const Picture& picture : report.pictures) {
       const std::string trouble =
           std::visit([&](const auto& what) { return draw(what, folder.path(), picture.name); }, picture.what);
-      if (trouble.empty()) continue;
-      tell(stderr, "{}\n", trouble);
-      all_.troubles.push_back(trouble);
+      keep_trouble(trouble);
     }
+    findings_["parts"].push_back(findings_of(report, name));
+    part("").folder.write_json(findings_name, findings_);
+  }
+
+  void keep_trouble(const std::string& trouble) {
+    if (trouble.empty()) return;
+    tell(stderr, "{}\n", trouble);
+    all_.troubles.push_back(trouble);
   }
 
   nlohmann::ordered_json numbers(const Report& last) const {
@@ -208,7 +223,7 @@ class Publisher : public StudyLog {
   std::optional<RunFolder> folder_;
   std::optional<ChildrenLog> children_;
   LastWords last_words_;
-  nlohmann::json manifest_;
+  nlohmann::json manifest_, findings_;
   std::map<std::string, Part> parts_;  // by name; that of the run is ""
   std::unique_ptr<Progress> progress_;
   Report all_;  // claims, disagreements and troubles of all parts

@@ -8,31 +8,14 @@ import csv
 import json
 import os
 import sys
-import tempfile
-import time
 import unittest
 
-try:
-    from selenium import webdriver
-    from selenium.webdriver.chrome.options import Options
-    from selenium.webdriver.chrome.service import Service
-    from selenium.webdriver.common.action_chains import ActionChains
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-except ImportError:  # it is a package of Debian's python3
-    if os.path.realpath(sys.executable) == os.path.realpath("/usr/bin/python3"):
-        sys.exit("there is no selenium: ./dartboard test --only browser installs python3-selenium")
-    os.execv("/usr/bin/python3", ["/usr/bin/python3", "-B"] + sys.argv)
+import browser
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
 
-import subprocess
-
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 HOSTILE = "</script><script>document.title = 'run'</script> \u202e<b>&amp;"
-
-
-def simulate(*arguments):
-    subprocess.run([PROGRAM, "simulate", *arguments], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def rows_of(file):
@@ -40,60 +23,25 @@ def rows_of(file):
         return list(csv.DictReader(text))
 
 
-def browser(*options):
-    all_options = Options()
-    for option in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--window-size=1300,1000", *options):
-        all_options.add_argument(option)
-    all_options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    all_options.binary_location = "/usr/bin/chromium"
-    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=all_options)
-
-
-class Page(unittest.TestCase):
+class Player(browser.PageTest):
     @classmethod
-    def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory(prefix="dartboard-browser-")
-        cls.folder = cls.scratch.name
-        cls.pages = {}
+    def make_pages(cls):
+        pages = {}
         # the same run again, with rows and probes as often as the page has pictures
-        with open(os.path.join(ROOT, "benchmarks", "scenes", "liver_cut.json"), encoding="utf-8") as file:
+        with open(os.path.join(browser.ROOT, "benchmarks", "scenes", "liver_cut.json"), encoding="utf-8") as file:
             scene = json.load(file)
         del scene["expect"]
-        scene["body"]["mesh"] = os.path.join(ROOT, "benchmarks", "meshes", "liver564.mesh")
+        scene["body"]["mesh"] = os.path.join(browser.ROOT, "benchmarks", "meshes", "liver564.mesh")
         scene["output"] = {"diagnostics_every": {"steps": 5}, "probes": scene["output"]["probes"]}
         for name, changes in (("liver", {}), ("other", {"integrator": "backward-euler"}), ("hostile", {"name": HOSTILE})):
             file = os.path.join(cls.folder, name + ".json")
             with open(file, "w", encoding="utf-8") as out:
                 json.dump({**scene, **changes}, out)
-            cls.pages[name] = os.path.join(cls.folder, name + ".html")
-            simulate(file, "--player", cls.pages[name], "--out", os.path.join(cls.folder, name))
-        cls.pages["contact"] = os.path.join(cls.folder, "contact.html")
-        simulate("liver_lands", "--player", cls.pages["contact"])
-        os.makedirs(PICTURES, exist_ok=True)
-        cls.driver = browser(*SOFTWARE_GL)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.driver.quit()
-        cls.scratch.cleanup()
-
-    def tearDown(self):
-        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
-        self.assertEqual(self.driver.get_log("browser"), [], "no error, no warning")
-
-    # what tests ask of a page
-
-    def open(self, name):
-        self.driver.set_window_size(1300, 1000)
-        self.driver.get("file://" + self.pages[name])
-        # the page has its last width once it has been laid out with its curves
-        self.driver.execute_async_script("const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done));")
-
-    def ask(self, expression, *arguments):
-        return self.driver.execute_script("return " + expression, *arguments)
-
-    def do(self, statements, *arguments):
-        self.driver.execute_script(statements, *arguments)
+            pages[name] = os.path.join(cls.folder, name + ".html")
+            browser.dartboard("simulate", file, "--player", pages[name], "--out", os.path.join(cls.folder, name))
+        pages["contact"] = os.path.join(cls.folder, "contact.html")
+        browser.dartboard("simulate", "liver_lands", "--player", pages["contact"])
+        return pages
 
     def picture(self):
         return self.ask("player.views[0].picture()")
@@ -104,17 +52,6 @@ class Page(unittest.TestCase):
     def set_box(self, name, value):
         self.do("const e = document.getElementById(arguments[0]); e.type === 'checkbox' ? e.checked = arguments[1] : e.value = arguments[1];"
                 "e.dispatchEvent(new Event('change'));", name, value)
-
-    def keep(self, name):
-        self.driver.save_screenshot(os.path.join(PICTURES, name + ".png"))
-
-    # tests
-
-    def test_is_one_file_below_three_megabytes_that_loads_nothing(self):
-        for name, page in self.pages.items():
-            self.assertLess(os.path.getsize(page), 3e6)
-            self.open(name)
-            self.assertEqual(self.ask("performance.getEntriesByType('resource').filter(e => !e.name.startsWith('data:')).length"), 0)
 
     def test_is_ready_soon_and_plays(self):
         self.open("liver")
@@ -216,7 +153,7 @@ class Page(unittest.TestCase):
         # and it can be saved
         saved = self.driver.execute_async_script(
             "const done = arguments[0]; URL.createObjectURL = blob => { blob.text().then(done); return 'blob:none'; };"
-            "HTMLAnchorElement.prototype.click = () => {}; player.diagrams[0].save('Energy');")
+            "HTMLAnchorElement.prototype.click = () => {}; save_svg(player.diagrams[0].svg.node(), 'Energy');")
         self.assertTrue(saved.startswith("<svg") and saved.count("<path") > 3)
 
     def test_puts_another_run_beside_it_and_refuses_what_is_none(self):
@@ -233,13 +170,6 @@ class Page(unittest.TestCase):
         self.assertNotEqual(pictures[0], pictures[1], "the implicit run lags behind")
         self.assertIn("2: sum", self.driver.find_element(By.CSS_SELECTOR, "#curves figure .keys").text)
 
-    def wait(self, condition):
-        for _ in range(100):
-            if condition():
-                return
-            time.sleep(0.05)
-        self.fail("the page has not answered within five seconds")
-
     def test_is_played_by_keys(self):
         self.open("liver")
         body = self.driver.find_element(By.TAG_NAME, "body")
@@ -250,20 +180,6 @@ class Page(unittest.TestCase):
         self.assertTrue(self.ask("player.playing"))
         body.send_keys(Keys.SPACE)
         self.assertFalse(self.ask("player.playing"))
-
-    def test_fits_a_phone_and_the_dark(self):
-        self.open("contact")
-        paper = self.ask("getComputedStyle(document.body).backgroundColor")
-        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
-                                    {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
-        self.assertNotEqual(self.ask("getComputedStyle(document.body).backgroundColor"), paper)
-        self.do("player.go_to(80)")
-        self.keep("dark")
-        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                                    {"width": 390, "height": 1400, "deviceScaleFactor": 1, "mobile": True})
-        self.assertLessEqual(self.ask("document.documentElement.scrollWidth"), 390)
-        self.keep("phone")
-        self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
     def test_prints_its_picture(self):
         self.open("liver")
@@ -279,7 +195,7 @@ class Page(unittest.TestCase):
         self.assertNotEqual(self.ask("document.title"), "run")
 
     def test_has_its_curves_where_no_bodies_can_be_drawn(self):
-        plain = browser("--disable-gpu", "--disable-3d-apis")
+        plain = browser.browser("--disable-gpu", "--disable-3d-apis")
         try:
             plain.get("file://" + self.pages["liver"])
             self.assertIn("WebGL", plain.find_element(By.ID, "views").text)
@@ -291,5 +207,4 @@ class Page(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM, PICTURES = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
     unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

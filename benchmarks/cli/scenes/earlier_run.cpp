@@ -11,7 +11,7 @@
 #include <system_error>
 #include <vector>
 
-#include "benchmarks/player/player_page.h"
+#include "benchmarks/pages/page.h"
 #include "core/base/folder_claim.h"
 #include "core/plain/error.h"
 #include "core/scene/output/scene_output.h"

@@ -40,9 +40,13 @@ std::vector<Diagnostics> rows_with_contact() {
   std::vector<Diagnostics> rows(3);
   for (std::size_t k = 0; k < 3; ++k) {
     const double t = static_cast<double>(k);
-    rows[k] = {.time = t, .kinetic = 1.0 + t, .elastic = 0.0, .gravitational = 5.0 - 4.0 * t, .applied = -2.0 * t};
-    // what is missing from 2 + 6 + 4 t of the start has been rubbed off
-    rows[k].contact = ContactDiagnostics{.rubbed = 9.0 * t, .supplied = 4.0 * t, .contacts = k, .deepest = 0.1 * t};
+    Diagnostics& row = rows[k];
+    row.time = t;
+    row.kinetic = 1.0 + t;
+    row.gravitational = 5.0 - 4.0 * t;
+    row.applied = -2.0 * t;
+    // the 4 t that are supplied, and the 6 t - t of the potentials that are not kinetic, have been rubbed off
+    row.contact = ContactDiagnostics{.rubbed = 9.0 * t, .supplied = 4.0 * t, .contacts = k, .deepest = 0.1 * t};
   }
   return rows;
 }
@@ -64,7 +68,7 @@ TEST(RunDiagrams, WorkOfDrivenVerticesWithoutContactIsNotKnown) {
   Json scene = moving_box();
   std::vector<Diagnostics> rows(3);
   EXPECT_NE(find(diagrams_of(rows, {}, moving::parse(scene), 3)[0], "start and supplied"), nullptr);
-  scene["driven"] = Json::array({{{"vertices", {0}}, {"velocity", {0, 0, 1}}}});
+  scene["driven"] = Json::array({{{"ids", {0}}, {"velocity", {0, 0, 1}}}});
   EXPECT_EQ(find(diagrams_of(rows, {}, moving::parse(scene), 3)[0], "start and supplied"), nullptr);
 }
 

@@ -154,7 +154,7 @@ TEST_F(Publish, WritesManifestTablesPagesDataSamplesAndClaims) {
   EXPECT_NE(text.find("Written to " + out().string()), std::string::npos) << text;
   std::size_t files = 0;
   for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator(out())) ++files;
-  EXPECT_EQ(files, 7u) << "claims twice, and no file for a table without a name";
+  EXPECT_EQ(files, 9u) << "claims twice, findings and their page, and no file for a table without a name";
 }
 
 TEST_F(Publish, KeepsThePartsOfAFolderWithinAndCountsThemInTheWhole) {

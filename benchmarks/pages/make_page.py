@@ -43,12 +43,14 @@ def main(template, data, page):
         content = json.load(file)
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined,
                                      trim_blocks=True, lstrip_blocks=True)
+    markup = jinja2.utils.markupsafe.Markup
     environment.globals.update(
-        library=lambda name: jinja2.utils.markupsafe.Markup(script(text_of(LIBRARIES[name][1], LIBRARIES[name][0]))),
-        own=lambda name: jinja2.utils.markupsafe.Markup(script((HERE / name).read_text(encoding="utf-8"))),
+        library=lambda name: markup(script(text_of(LIBRARIES[name][1], LIBRARIES[name][0]))),
+        own=lambda name: markup(script((HERE / name).read_text(encoding="utf-8"))),
         # a string of JSON may hold "</script>"; it is the same string with this escape
-        data=jinja2.utils.markupsafe.Markup(json.dumps(content, separators=(",", ":"), ensure_ascii=False).replace("<", "\\u003c")))
-    pathlib.Path(page).write_text(environment.get_template(template).render(content), encoding="utf-8")
+        data=lambda value: markup(json.dumps(value, separators=(",", ":"), ensure_ascii=False).replace("<", "\\u003c")))
+    text = environment.get_template(template).render(content, page=content)
+    pathlib.Path(page).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-#include "benchmarks/player/player_page.h"
+#include "benchmarks/pages/page.h"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <system_error>
 
 #include "benchmarks/checkout/source_folder.h"
 #include "benchmarks/harness/json_text.h"
@@ -21,36 +22,6 @@ namespace {
 constexpr char made_here[] = "<!-- Made by Dartboard. -->";
 
 }  // namespace
-
-nlohmann::json player_page(const RecordedFrames& frames, const PlayedRun& run) {
-  // four letters of base64 for three bytes, next to 1.15 MB of libraries
-  constexpr std::size_t most_bytes = 1'300'000;
-  const auto numbers = [](const Eigen::Vector3d& x) { return nlohmann::json{x.x(), x.y(), x.z()}; };
-  const PictureView& view = run.look.view;
-  const Eigen::Vector3d towards(view.seen(Eigen::Vector3d::UnitX()).z(), view.seen(Eigen::Vector3d::UnitY()).z(),
-                                view.seen(Eigen::Vector3d::UnitZ()).z());
-  const Eigen::Vector3d& gravity = run.scene.gravity;
-  const Eigen::Vector3d up = gravity.isZero(0.0) ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d(-gravity.normalized());
-  return {{"format", "dartboard-player"},
-          {"version", 1},
-          {"program", DARTBOARD_VERSION},
-          {"title", run.scene.name},
-          {"about", run.scene.about},
-          {"facts", run.facts},
-          {"table", run.table},
-          {"towards", numbers(towards)},
-          {"up", numbers(up)},
-          {"colours",
-           {{"numbers", colours::numbers},
-            {"shades", {shade_of(0.0), shade_of(0.25), shade_of(0.5), shade_of(0.75), shade_of(1.0)}},
-            {"inside", colours::inside},
-            {"held", colours::held},
-            {"driven", colours::driven},
-            {"held_in_part", colours::held_in_part},
-            {"attached", colours::attached},
-            {"obstacle", colours::obstacle}}},
-          {"run", frames.json(most_bytes)}};
-}
 
 bool is_page(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -83,7 +54,7 @@ std::string write_page(const std::string& name, const nlohmann::json& page, cons
   try {
     run_program(
         std::filesystem::exists(debians) ? debians : "python3",
-        {"-B", (source_folder() / "benchmarks/player/make_page.py").string(), name + ".html", "page.json", "page.html"},
+        {"-B", (source_folder() / "benchmarks/pages/make_page.py").string(), name + ".html", "page.json", "page.html"},
         [&](std::string_view line) { said = line; }, Stderr::as_output, scratch.path());
   } catch (const ProcessError& error) {
     return fmt::format("no page {}: {}", file.string(), said.empty() ? error.what() : said);

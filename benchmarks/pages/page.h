@@ -1,29 +1,11 @@
 #pragma once
-// A run as one page that plays it in a browser, without a network.
+// Pages of one file that open in a browser without a network.
 
-#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-#include <vector>
-
-#include "benchmarks/player/recorded_frames.h"
 
 namespace dartboard {
-
-/// The most pictures of a player, after the first.
-inline constexpr std::uint64_t most_player_pictures = 120;
-
-/// What a page says about its run besides its pictures.
-struct PlayedRun {
-  const SceneFile& scene;
-  const Look& look;                             // as pictures are seen
-  std::vector<std::string> facts;               // a line that names the run, then others
-  std::vector<std::vector<std::string>> table;  // quantities, at the start and at the end
-};
-
-/// The data of a page, which takes less than 3 MB: bodies of many points have fewer pictures.
-nlohmann::json player_page(const RecordedFrames& frames, const PlayedRun& run);
 
 /// Is this file a page made by `write_page`?
 bool is_page(const std::filesystem::path& file);

@@ -1,4 +1,4 @@
-#include "benchmarks/player/recorded_frames.h"
+#include "benchmarks/pages/recorded_frames.h"
 
 #include <gtest/gtest.h>
 
@@ -109,7 +109,7 @@ TEST(RecordedFrames, HaveValuesAsSharesOfTheLargest) {
 
 TEST(RecordedFrames, HaveTheForcesFromOutsideWhereTheyAct) {
   Json scene = moving_box();
-  scene["forces"] = Json::parse(R"([{"vertices": "all", "force": [0, 3, 0], "until": 0.005}])");
+  scene["forces"] = Json::parse(R"([{"box": {"min": [-9, -9, -9], "max": [9, 9, 9]}, "force": [0, 3, 0], "until": 0.005}])");
   const Json run = recorded(scene);
   double sum = 0.0;
   for (const Json& load : run["frames"][0]["loads"]) sum += load[4].get<double>();
@@ -120,7 +120,7 @@ TEST(RecordedFrames, HaveTheForcesFromOutsideWhereTheyAct) {
 TEST(RecordedFrames, OfAChainHaveTheMeanTensionOfTheLinksAtEachPoint) {
   const Json run = recorded(Json::parse(R"({"name": "chain", "step": 0.001, "duration": 0.01,
     "body": {"generate": {"chain": {"links": 4, "spacing": 0.1}}},
-    "material": {"density": 1, "stiffness": 10}, "gravity": [9.81, 0, 0], "fixed": [{"vertices": [0]}]})"));
+    "material": {"density": 1, "stiffness": 10}, "gravity": [9.81, 0, 0], "fixed": [{"ids": [0]}]})"));
   EXPECT_EQ(run["quantities"][1]["unit"], "N");
   EXPECT_EQ(column<std::uint16_t>(run["shapes"][0]["links"]).size(), 8u);
   const auto first = column<std::uint8_t>(run["frames"][0]["values"]["stress"]);

@@ -1,4 +1,4 @@
-#include "benchmarks/player/recorded_frames.h"
+#include "benchmarks/pages/recorded_frames.h"
 
 #include <algorithm>
 #include <bit>

@@ -14,7 +14,7 @@ class Diagram {
     this.figure = d3.select(parent).append("figure");
     const heading = this.figure.append("div").attr("class", "heading");
     heading.append("span").text(data.title + unit);
-    heading.append("button").attr("type", "button").attr("aria-label", `Save ${data.title} as SVG`).text("SVG").on("click", () => this.save(data.title));
+    heading.append("button").attr("type", "button").attr("aria-label", `Save ${data.title} as SVG`).text("SVG").on("click", () => save_svg(this.svg.node(), data.title));
     const width = 520, height = 230, left = 62, right = 16, top = 8, bottom = 34;
     this.svg = this.figure.append("svg").attr("viewBox", `0 0 ${width} ${height}`).attr("xmlns", "http://www.w3.org/2000/svg").attr("role", "img");
     this.svg.append("title").text(`${data.title}${unit} over time [s]`);
@@ -78,15 +78,5 @@ class Diagram {
       const k = Math.max(0, d3.bisectRight(line.times, time * (1 + 1e-12)) - 1), value = line.own[k];
       return `${line.name} ${value === null || value === undefined ? "none" : BodyView.in_words(value)}`;
     });
-  }
-
-  save(title) {
-    const copy = this.svg.node().cloneNode(true);
-    copy.setAttribute("style", "color: #1d2329; background: #ffffff");
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([new XMLSerializer().serializeToString(copy)], {type: "image/svg+xml"}));
-    link.download = `${title.toLowerCase().replace(/[^a-z0-9]+/g, "_")}.svg`;
-    link.click();
-    URL.revokeObjectURL(link.href);
   }
 }

@@ -1,4 +1,4 @@
-#include "benchmarks/player/player_page.h"
+#include "benchmarks/pages/player_page.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "benchmarks/pages/page.h"
 #include "core/plain/error.h"
 #include "tests/support/folder_for_tests.h"
 #include "tests/support/moving_box.h"

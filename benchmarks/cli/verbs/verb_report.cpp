@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/harness/json_text.h"
+#include "benchmarks/harness/tell.h"
+#include "benchmarks/pages/page.h"
+#include "benchmarks/report/findings.h"
+#include "benchmarks/report/report_page.h"
+
+namespace dartboard {
+namespace {
+
+struct ReportOptions {
+  std::vector<std::string> folders;
+  std::string out;
+  bool replace = false, json = false;
+};
+
+void report(const ReportOptions& options, Outcome& outcome) {
+  const std::vector<std::filesystem::path> folders(options.folders.begin(), options.folders.end());
+  if (options.json) {
+    nlohmann::json runs = nlohmann::json::array();
+    for (const auto& folder : folders) runs.push_back(read_run(folder));
+    tell("{}\n", json_text(runs, 2));
+    return;
+  }
+  const std::filesystem::path file =
+      options.out.empty() ? folders[0] / report_name : std::filesystem::path(options.out);
+  // that of a folder is made from the rest of it, and can be made again
+  require_writable_page(file, options.replace || options.out.empty(), "");
+  const std::string trouble = write_report(folders, file);
+  if (trouble.empty()) return tell("{} shows {}.\n", file.string(), fmt::join(options.folders, ", "));
+  tell(stderr, "{}\n", trouble);
+  outcome.exit_code = exit_io;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Outcome& outcome) {
+  auto options = std::make_shared<ReportOptions>();
+  auto* verb = app.get_subcommand("report");
+  verb->add_option("DIR", options->folders,
+                   "folders of studies, as --out of reproduce, extremes, tradeoff, validate and bench")
+      ->required();
+  auto* out =
+      verb->add_option("--out", options->out, "the page, a new file [report.html in DIR, where there is one DIR]")
+          ->type_name("FILE.html");
+  verb->add_flag("--replace", options->replace, "write it over an earlier page")->needs(out);
+  verb->add_flag("--json", options->json, "print the findings and manifests as JSON, and make no page");
+  verb->callback([options, &outcome] {
+    if (options->folders.size() > 1 && options->out.empty() && !options->json)
+      throw CLI::RequiredError("--out for the page of several folders");
+    report(*options, outcome);
+  });
+}
+
+}  // namespace dartboard

@@ -1,0 +1,27 @@
+#pragma once
+// The page that plays a run.
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "benchmarks/pages/recorded_frames.h"
+
+namespace dartboard {
+
+/// The most pictures of a player, after the first.
+inline constexpr std::uint64_t most_player_pictures = 120;
+
+/// What a page says about its run besides its pictures.
+struct PlayedRun {
+  const SceneFile& scene;
+  const Look& look;                             // as pictures are seen
+  std::vector<std::string> facts;               // a line that names the run, then others
+  std::vector<std::vector<std::string>> table;  // quantities, at the start and at the end
+};
+
+/// The data of a page, which takes less than 3 MB: bodies of many points have fewer pictures.
+nlohmann::json player_page(const RecordedFrames& frames, const PlayedRun& run);
+
+}  // namespace dartboard
