@@ -7,6 +7,7 @@ file. What goes wrong is one line of standard error, and exit status 1.
 import json
 import pathlib
 import sys
+import unicodedata
 
 HERE = pathlib.Path(__file__).resolve().parent
 LIBRARIES = {  # where Debian's packages put them
@@ -34,21 +35,33 @@ def script(text):
     return text
 
 
+def visible(value):
+    """Data without characters by which a name could act on a terminal or turn the text around it."""
+    if isinstance(value, str):
+        acts = lambda letter: unicodedata.category(letter) in ("Cc", "Zl", "Zp") or letter in "\u202a\u202b\u202d\u202e\u2066\u2067\u2068"
+        return "".join("\ufffd" if acts(letter) and letter != "\n" else letter for letter in value)
+    if isinstance(value, list):
+        return [visible(one) for one in value]
+    if isinstance(value, dict):
+        return {visible(key): visible(one) for key, one in value.items()}
+    return value
+
+
 def main(template, data, page):
     try:
         import jinja2
     except ImportError:
         fail("%s has no jinja2; it is in Debian's package python3-jinja2, which ./dartboard installs" % sys.executable)
     with open(data, encoding="utf-8") as file:
-        content = json.load(file)
+        content = visible(json.load(file))
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined,
                                      trim_blocks=True, lstrip_blocks=True)
     markup = jinja2.utils.markupsafe.Markup
     environment.globals.update(
         library=lambda name: markup(script(text_of(LIBRARIES[name][1], LIBRARIES[name][0]))),
         own=lambda name: markup(script((HERE / name).read_text(encoding="utf-8"))),
-        # a string of JSON may hold "</script>"; it is the same string with this escape
-        data=lambda value: markup(json.dumps(value, separators=(",", ":"), ensure_ascii=False).replace("<", "\\u003c")))
+        # in ASCII, and a string of JSON may hold "</script>"; it is the same string with this escape
+        data=lambda value: markup(json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")))
     text = environment.get_template(template).render(content, page=content)
     pathlib.Path(page).write_text(text, encoding="utf-8")
 

@@ -40,6 +40,7 @@ NAMES = [
     "a" * 100000,
     "`" * 100000,
 ]
+PARTS_OF_A_PLAYER = 9  # scripts: its data, three libraries and five of ours
 ALL_IN_ONE = " ".join(name for name in NAMES if len(name) < 1000)
 # no part of a path can hold a slash or a NUL, nor more than 255 bytes; but bytes that are no UTF-8
 FILE_NAMES = [
@@ -166,7 +167,11 @@ def write(path, scene):
 def scenes(run):
     for k, name in enumerate(NAMES):
         file = write(os.path.join(run.folder, f"scene{k}.json"), chain(name))
-        run("simulate", file, "--picture", writes=True)
+        page = os.path.join(run.folder, f"page{k}.html")
+        run("simulate", file, "--picture", "--player", page, writes=True)
+        with open(page, "rb") as stream:
+            text = check_text(stream.read().replace(b"\t", b""), page)  # which libraries have
+        check(text.count("<script") == PARTS_OF_A_PLAYER, f"{page}: {ascii(name)[:120]} made an element")
     file = write(os.path.join(run.folder, "all.json"), chain(ALL_IN_ONE))
     for verb in (["simulate"], ["explain"], ["explain-dt"]):
         run(*verb, file)

@@ -54,7 +54,7 @@ RUNS = {
     "bench large": [(["--quick", "--json", "--out", "OUT"], MAY_BE_SLOW)],
     "bench step": [(["--quick", "--json", "--out", "OUT"], MAY_BE_SLOW)],
     "simulate": [(["sheet_cut", "--quick", "--picture", "--out", "OUT"], AGREES),
-                 (["liver_cut", "--quick", "--json"], AGREES)],
+                 (["liver_cut", "--quick", "--json", "--player", "PAGE"], AGREES)],
     "scene": [(["--schema"], AGREES), (["--keys"], AGREES), (["--check", "liver_cut"], AGREES)],
     "tradeoff": [(["chain", "--quick", "--json", "--out", "OUT"], AGREES),
                  (["--models", "cantilever", "--quick", "--json", "--out", "OUT"], AGREES)],
@@ -67,13 +67,15 @@ RUNS = {
     "explain": [(["sheet_cut"], AGREES), (["sheet_cut", "--measure", "--json"], AGREES)],
     "explain-dt": [(["sheet_cut"], AGREES), (["sheet_cut", "--json"], AGREES)],
     "gallery": [(["--json", "--out", "OUT"], AGREES)],
+    "report": [(["STUDY"], AGREES), (["STUDY", "--json"], AGREES)],
     "mesh info": [(["LIVER"], AGREES), (["LIVER", "--out", "OUT"], AGREES), (["LIVER", "--json"], AGREES)],
     "list": [([], AGREES), (["--json"], AGREES)],
 }
 
 REPORT = re.compile(r"AddressSanitizer|LeakSanitizer|UndefinedBehaviorSanitizer|runtime error:")
 NO_NUMBER = re.compile(r"(?<![\w-])-?(nan|inf)(?![\w-])")  # as numbers are printed; in sentences it is "NaN"
-TEXTS = (".csv", ".json", ".jsonl", ".md", ".txt", ".vtu", ".pvd", ".svg", ".html")
+# pages have libraries in them; their data are those of findings.json
+TEXTS = (".csv", ".json", ".jsonl", ".md", ".txt", ".vtu", ".pvd", ".svg")
 
 
 def verbs_of(program, above=()):
@@ -93,7 +95,10 @@ def complaints(program, verb, arguments, right):
     folder = tempfile.mkdtemp(prefix="verb-")
     out = os.path.join(folder, "out")
     liver = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../benchmarks/meshes/liver564.mesh")
-    words = [{"OUT": out, "LIVER": liver}.get(word, word) for word in arguments]
+    study, page = os.path.join(folder, "study"), os.path.join(folder, "page.html")
+    words = [{"OUT": out, "LIVER": liver, "STUDY": study, "PAGE": page}.get(word, word) for word in arguments]
+    if "STUDY" in arguments:
+        subprocess.run([program, "validate", "drawn", "--count", "1", "--out", study], check=True, capture_output=True)
     environment = dict(os.environ, ASAN_OPTIONS="exitcode=99", UBSAN_OPTIONS="exitcode=99:print_stacktrace=1")
     start = time.monotonic()
     run = subprocess.run([program, *verb.split(), *words], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
