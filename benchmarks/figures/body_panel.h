@@ -54,6 +54,6 @@ inline constexpr std::uint32_t inside = 0xc8503c, held = 0x303030, driven = 0xd0
                                attached = 0x1f7a3a, obstacle = 0xd3d3d3;
 /// Of components and materials, which begin again after the last.
 inline constexpr std::array numbers{0x7ba7d9u, 0xe0b15au, 0x86bf7cu, 0xb18cc8u, 0x5fb8b3u, 0xd98ba5u, 0xa8a878u};
-}
+}  // namespace colours
 
 }  // namespace dartboard

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "benchmarks/harness/json_text.h"
 #include "core/meshes/text/base64.h"
 #include "core/plain/error.h"
 
@@ -147,8 +148,8 @@ nlohmann::json read_run(const fs::path& folder) {
   const fs::path file = folder / findings_name;
   if (!findings.is_object() || findings.value("format", "") != format_name) fail(file, "is no list of findings");
   if (findings.value("version", 0) != version)
-    fail(file,
-         fmt::format("has version {} of its format, and this program reads {}", findings["version"].dump(), version));
+    fail(file, fmt::format("has version {} of its format, and this program reads {}", json_text(findings["version"]),
+                           version));
   std::set<std::string> files;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error))

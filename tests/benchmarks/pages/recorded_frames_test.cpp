@@ -109,7 +109,8 @@ TEST(RecordedFrames, HaveValuesAsSharesOfTheLargest) {
 
 TEST(RecordedFrames, HaveTheForcesFromOutsideWhereTheyAct) {
   Json scene = moving_box();
-  scene["forces"] = Json::parse(R"([{"box": {"min": [-9, -9, -9], "max": [9, 9, 9]}, "force": [0, 3, 0], "until": 0.005}])");
+  scene["forces"] =
+      Json::parse(R"([{"box": {"min": [-9, -9, -9], "max": [9, 9, 9]}, "force": [0, 3, 0], "until": 0.005}])");
   const Json run = recorded(scene);
   double sum = 0.0;
   for (const Json& load : run["frames"][0]["loads"]) sum += load[4].get<double>();
