@@ -95,7 +95,7 @@ nlohmann::json data_of(const BodyStrip& strip) { return {{"kind", "image"}, {"ti
 
 std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
   std::error_code error;
   if (!in) fail(file, fs::exists(file, error) ? "cannot be read" : "is missing");
   return bytes;
