@@ -170,8 +170,8 @@ class BodyView {
     const meaning = [null, "held", "driven", "held_in_part"];
     BodyView.put(this.held, "position", BodyView.gathered(marked, places));
     BodyView.put(this.held, "color", Float32Array.from(marked.flatMap(k => BodyView.rgb(this.recording.colours[meaning[shape.held[k]]]))));
-    BodyView.put(this.attachments, "position", Float32Array.from(frame.attachments.flat()));
-    BodyView.put(this.loads, "position", this.arrows(frame.loads));
+    BodyView.put(this.attachments, "position", this.recording.arrows(number, "attachments"));
+    BodyView.put(this.loads, "position", this.arrows(this.recording.arrows(number, "loads")));
     this.held.visible = this.attachments.visible = this.loads.visible = look.marks;
     this.edges.visible = look.edges;
     this.obstacles.forEach((one, k) => {
@@ -190,9 +190,10 @@ class BodyView {
   /** Lines from where forces act, of a tenth of the reach for the largest force, with heads. */
   arrows(loads) {
     const {radius} = BodyView.reach([this.recording]), lines = [];
-    const largest = Math.max(0, ...loads.map(l => Math.hypot(l[3], l[4], l[5])));
+    const all = d3.range(0, loads.length, 6).map(k => loads.subarray(k, k + 6)), size = l => Math.hypot(l[3], l[4], l[5]);
+    const largest = Math.max(0, ...all.map(size));
     if (!(largest > 0)) return new Float32Array();
-    for (const l of loads) {
+    for (const l of all) {
       const from = new THREE.Vector3(l[0], l[1], l[2]), along = new THREE.Vector3(l[3], l[4], l[5]).multiplyScalar(0.2 * radius / largest);
       const to = from.clone().add(along), length = along.length();
       lines.push(...from.toArray(), ...to.toArray());
@@ -215,8 +216,8 @@ class BodyView {
       [[1, "held"], [2, "driven"], [3, "held_in_part", "held along some axes"]].forEach(([code, name, text]) => {
         if (shape.held.includes(code)) rows.push([text || name, css(colours[name])]);
       });
-      if (run.frames.some(frame => frame.attachments.length)) rows.push(["attached", css(colours.attached)]);
-      if (run.frames.some(frame => frame.loads.length)) rows.push(["force", css(BodyView.load_colour)]);
+      if (run.frames.some(frame => frame.attachments)) rows.push(["attached", css(colours.attached)]);
+      if (run.frames.some(frame => frame.loads)) rows.push(["force", css(BodyView.load_colour)]);
     }
     if (look.obstacles && run.obstacles.length) rows.push(["obstacle", css(colours.obstacle)]);
     const key = JSON.stringify([look.by, look.largest, rows]);

@@ -50,18 +50,18 @@ def visible(value):
 def main(template, data, page):
     try:
         import jinja2
+        from markupsafe import Markup
     except ImportError:
         fail("%s has no jinja2; it is in Debian's package python3-jinja2, which ./dartboard installs" % sys.executable)
     with open(data, encoding="utf-8") as file:
         content = visible(json.load(file))
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, undefined=jinja2.StrictUndefined,
                                      trim_blocks=True, lstrip_blocks=True)
-    markup = jinja2.utils.markupsafe.Markup
     environment.globals.update(
-        library=lambda name: markup(script(text_of(LIBRARIES[name][1], LIBRARIES[name][0]))),
-        own=lambda name: markup(script((HERE / name).read_text(encoding="utf-8"))),
+        library=lambda name: Markup(script(text_of(LIBRARIES[name][1], LIBRARIES[name][0]))),
+        own=lambda name: Markup(script((HERE / name).read_text(encoding="utf-8"))),
         # in ASCII, and a string of JSON may hold "</script>"; it is the same string with this escape
-        data=lambda value: markup(json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")))
+        data=lambda value: Markup(json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")))
     text = environment.get_template(template).render(content, page=content)
     pathlib.Path(page).write_text(text, encoding="utf-8")
 

@@ -16,9 +16,10 @@ inline constexpr std::uint64_t most_player_pictures = 120;
 /// What a page says about its run besides its pictures.
 struct PlayedRun {
   const SceneFile& scene;
-  const Look& look;                             // as pictures are seen
-  std::vector<std::string> facts;               // a line that names the run, then others
-  std::vector<std::vector<std::string>> table;  // quantities, at the start and at the end
+  const Look& look;                   // as pictures are seen
+  std::vector<std::string> facts;     // a line that names the run, one that says how it is run, then others
+  std::vector<std::string> warnings;  // printed before it
+  std::string text;                   // printed after it
 };
 
 /// The data of a page, which takes less than 3 MB: bodies of many points have fewer pictures.

@@ -73,15 +73,18 @@ json diagram_of(const RunDiagram& diagram) {
           {"curves", std::move(curves)}};
 }
 
-json arrows_of(const std::vector<PlayedFrame::Arrow>& arrows) {
-  json all = json::array();
-  for (const auto& [a, b] : arrows) all.push_back({a.x(), a.y(), a.z(), b.x(), b.y(), b.z()});
-  return all;
+/// Six numbers each.
+std::string arrows_of(const std::vector<PlayedFrame::Arrow>& arrows) {
+  std::vector<float> numbers;
+  for (const PlayedFrame::Arrow& arrow : arrows)
+    for (const Vector3d& x : arrow)
+      for (const double part : x) numbers.push_back(static_cast<float>(part));
+  return encoded(numbers);
 }
 
 /// Bytes of a frame, and of a shape, before they are encoded.
 std::size_t bytes_of(const PlayedFrame& frame) {
-  std::size_t bytes = 2 * frame.places.size() + 50 * (frame.attachments.size() + frame.loads.size());
+  std::size_t bytes = 2 * frame.places.size() + 24 * (frame.attachments.size() + frame.loads.size());
   for (const auto& values : frame.values) bytes += values.size();
   return bytes;
 }

@@ -81,6 +81,11 @@ class Recording {
     return text === undefined ? null : Float32Array.from(Recording.column(text, Uint8Array), b => b === 0 ? NaN : (b - 1) / 254);
   }
 
+  /** Six numbers for each: two places, or a place and a force. */
+  arrows(number, name) {
+    return Recording.column(this.run.frames[number][name], Float32Array);
+  }
+
   quantity(name) {
     return this.run.quantities.find(one => one.name === name);
   }

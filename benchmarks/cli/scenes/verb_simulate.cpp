@@ -260,7 +260,7 @@ void simulate(const SimulateOptions& options, const StepChoice& choose_step, Out
   }
   if (player) {
     player->ended(simulation);
-    const PlayedRun played{scene, look, lines_of(opening), summary_of(report).rows()};
+    const PlayedRun played{scene, look, lines_of(opening), run.warnings(), to_text(report)};
     drawn(write_page("player", player_page(*player, played), options.player),
           fmt::format("{} plays it in a browser.", options.player));
   }

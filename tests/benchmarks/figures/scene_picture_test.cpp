@@ -222,6 +222,23 @@ TEST(ScenePicture, GivesLinksOfAChainTheSizeOfTheirTension) {
   EXPECT_EQ(panel.unit, "N");
 }
 
+TEST(ScenePicture, ColoursByTheMeanContactForceOfTheCornersOfAFacet) {
+  Frame frame;
+  frame.mesh = hexahedron_box(1, 1, 1, 1.0);
+  frame.component = {0};
+  for (std::int64_t k = 0; k < 8; ++k) frame.mesh_point.push_back(k);
+  const auto largest = [&frame] {
+    double value = -1.0;
+    for (const DrawnFacet& facet : BodyFacets({.colour = ColourBy::contact}, frame).of(frame).facets)
+      value = std::isnan(facet.value) ? value : std::max(value, facet.value);
+    return value;
+  };
+  EXPECT_EQ(largest(), -1.0) << "a scene without contact has no values";
+  for (const Vector3d& x : frame.mesh.points) frame.contact_force.emplace_back(0, 0, x.z() > 0.5 ? -3.0 : 0.0);
+  EXPECT_EQ(largest(), 3.0) << "the upper side";
+  EXPECT_TRUE(BodyFacets::fields({.colour = ColourBy::contact}).contact);
+}
+
 TEST(ScenePicture, ColoursByMaterialWhateverComponentItIsIn) {
   Frame frame;
   frame.mesh = hexahedron_box(2, 1, 1, 1.0);

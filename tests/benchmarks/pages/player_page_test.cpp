@@ -23,7 +23,7 @@ class PlayerPageTest : public FolderTest {
     const Simulation simulation(scene);
     const RecordedFrames frames(simulation, {0}, scene);
     const Look look = look_of(scene);
-    return player_page(frames, {scene, look, {"name", "verlet"}, {{"mass [kg]", "1", "1"}}});
+    return player_page(frames, {scene, look, {"name", "verlet"}, {"it is too stiff"}, "mass [kg]  1"});
   }
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
 };
@@ -36,6 +36,7 @@ TEST_F(PlayerPageTest, HoldsItsDataWhateverTheyAreCalled) {
   const std::size_t from = html.find(begin) + begin.size();
   EXPECT_EQ(nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from)), page);
   EXPECT_NE(html.find("<h1>&lt;/script&gt;&lt;script&gt;&amp;&#34;&#39;\\ \u00e9</h1>"), std::string::npos);
+  EXPECT_NE(html.find("warning: it is too stiff"), std::string::npos);
   EXPECT_TRUE(is_page(folder_ / "page.html"));
 }
 
