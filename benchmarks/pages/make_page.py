@@ -37,7 +37,7 @@ def script(text):
 
 def visible(value):
     """Data without characters by which a name could act on a terminal or turn the text around it."""
-    if isinstance(value, str):
+    if isinstance(value, str) and not value.isprintable():
         acts = lambda letter: unicodedata.category(letter) in ("Cc", "Zl", "Zp") or letter in "\u202a\u202b\u202d\u202e\u2066\u2067\u2068"
         return "".join("\ufffd" if acts(letter) and letter != "\n" else letter for letter in value)
     if isinstance(value, list):

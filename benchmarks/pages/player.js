@@ -53,8 +53,9 @@ class Player {
     on("beside", "change", () => this.element("beside").files[0] && this.put_beside(this.element("beside").files[0]));
     window.addEventListener("beforeprint", () => this.views.forEach(view => view.printed.attr("src", view.picture())));
     document.addEventListener("keydown", event => {
-      if (event.ctrlKey || event.altKey || event.metaKey || /^(SELECT|TEXTAREA)$/.test(event.target.tagName)) return;
-      if (event.target.tagName === "BUTTON" && (event.key === " " || event.key === "Enter")) return;
+      // the keys of a control that has the focus are its own; the slider's are these
+      const control = event.target.closest("button, select, summary, input:not([type=range])");
+      if (control || event.ctrlKey || event.altKey || event.metaKey) return;
       const go = {ArrowLeft: this.now - 1, ArrowRight: this.now + 1, Home: 0, End: this.times.length - 1}[event.key];
       if (event.key === " ") this.play(!this.playing);
       else if (go !== undefined) this.go_to(go);
@@ -77,8 +78,7 @@ class Player {
     this.diagrams = this.recordings[0].run.curves.map(data => new Diagram("#curves", this.recordings
       .map((one, r) => ({name: this.recordings.length > 1 ? this.view_name(r) : "", data: one.run.curves.find(other => other.title === data.title)}))
       .filter(one => one.data), time => this.go_to_time(time)));
-    this.ways = [];
-    d3.select("#picked").selectAll("*").remove();
+    this.choose_none();
     this.show();
   }
 
@@ -159,11 +159,15 @@ class Player {
     for (const view of this.views) if (view.shown >= 0) view.draw();
   }
 
-  pick(view, x, y) {
-    const point = view.point_at(x, y);
+  choose_none() {
     d3.select("#picked").selectAll("*").remove();
     this.ways = [];
-    for (const other of this.views) other.way = null;
+    for (const view of this.views) view.way = null;
+  }
+
+  pick(view, x, y) {
+    const point = view.point_at(x, y);
+    this.choose_none();
     if (point !== null) {
       const {number, way} = view.recording.way_of(view.shown, point);
       view.way = {way};

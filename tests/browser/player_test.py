@@ -180,6 +180,11 @@ class Player(browser.PageTest):
         self.assertTrue(self.ask("player.playing"))
         body.send_keys(Keys.SPACE)
         self.assertFalse(self.ask("player.playing"))
+        # on a control, they are the control's
+        box = self.driver.find_element(By.ID, "edges")
+        box.send_keys(Keys.SPACE)
+        self.assertFalse(box.is_selected())
+        self.assertFalse(self.ask("player.playing"))
 
     def test_prints_its_picture(self):
         self.open("liver")
