@@ -1,8 +1,10 @@
 #include "benchmarks/figures/frame_facets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -19,24 +21,43 @@ Key sorted(Key nodes) {
   return nodes;
 }
 
+/// A face of a cell.
+struct Side {
+  std::array<std::uint32_t, 4> corners;  // of a volume's, ascending; after three the largest number
+  std::uint32_t cell, face;
+};
+
 // The polygons of a surface; the faces of volumes that belong to one cell.
 std::vector<FrameFacet> facets_of(const Mesh& mesh) {
-  std::vector<FrameFacet> all;
-  std::map<Key, int> cells_at;
+  std::vector<Side> sides, seen;
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-    const auto nodes = mesh.cell(c);
-    for (const std::vector<int>& face : faces_of(mesh.kinds[c])) {
-      FrameFacet facet{{}, c};
-      for (const int k : face) facet.nodes.push_back(nodes[static_cast<std::size_t>(k)]);
-      if (dimension(mesh.kinds[c]) == 3) ++cells_at[sorted(facet.nodes)];
-      all.push_back(std::move(facet));
+    const bool is_volume = dimension(mesh.kinds[c]) == 3;
+    std::uint32_t face = 0;
+    for (const std::vector<int>& corners : faces_of(mesh.kinds[c])) {
+      Side side{{}, static_cast<std::uint32_t>(c), face++};
+      if (is_volume) {
+        side.corners.fill(std::numeric_limits<std::uint32_t>::max());
+        for (std::size_t k = 0; k < corners.size(); ++k)
+          side.corners[k] = mesh.cell(c)[static_cast<std::size_t>(corners[k])];
+        std::ranges::sort(side.corners);
+      }
+      (is_volume ? sides : seen).push_back(side);
     }
   }
-  std::erase_if(all, [&](const FrameFacet& facet) {
-    const auto found = cells_at.find(sorted(facet.nodes));
-    return found != cells_at.end() && found->second > 1;
-  });
-  return all;
+  std::ranges::sort(sides, {}, &Side::corners);
+  for (std::size_t k = 0, next = 0; k < sides.size(); k = next) {
+    for (next = k + 1; next < sides.size() && sides[next].corners == sides[k].corners;) ++next;
+    if (next == k + 1) seen.push_back(sides[k]);
+  }
+  std::ranges::sort(seen, {}, [](const Side& side) { return std::pair(side.cell, side.face); });
+  std::vector<FrameFacet> facets;
+  for (const Side& side : seen) {
+    FrameFacet facet{{}, side.cell};
+    for (const int k : faces_of(mesh.kinds[side.cell])[side.face])
+      facet.nodes.push_back(mesh.cell(side.cell)[static_cast<std::size_t>(k)]);
+    facets.push_back(std::move(facet));
+  }
+  return facets;
 }
 
 // The points of the mesh by which facets are compared: their own, or those of the face of the mesh that contains them.
