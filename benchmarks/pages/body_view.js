@@ -6,7 +6,9 @@ class BodyView {
     this.recording = recording;
     this.camera = camera;
     this.figure = d3.select(parent).append("figure").attr("class", "view");
-    this.figure.append("div").attr("class", "name").text(recording.title);
+    const name = this.figure.append("div").attr("class", "name");
+    name.append("span").text(recording.title);
+    name.append("small").text(recording.page.facts[1]);
     this.legend = this.figure.append("div").attr("class", "legend");
     this.bar = this.figure.append("div").attr("class", "bar");
     this.bar.append("span");

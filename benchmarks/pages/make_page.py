@@ -62,7 +62,10 @@ def main(template, data, page):
         own=lambda name: Markup(script((HERE / name).read_text(encoding="utf-8"))),
         # in ASCII, and a string of JSON may hold "</script>"; it is the same string with this escape
         data=lambda value: Markup(json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")))
-    text = environment.get_template(template).render(content, page=content)
+    try:
+        text = environment.get_template(template).render(content, page=content)
+    except (jinja2.exceptions.UndefinedError, TypeError) as error:
+        fail("its data are damaged, or those of another version: %s" % error)
     pathlib.Path(page).write_text(text, encoding="utf-8")
 
 

@@ -82,9 +82,10 @@ class Player {
     this.show();
   }
 
+  /** How curves call a run: by its name, or by where it is if both have one name. */
   view_name(r) {
     const [a, b] = this.recordings.map(one => one.title);
-    return a === b ? `${r + 1}` : this.recordings[r].title;
+    return a === b ? ["left", "right"][r] : this.recordings[r].title;
   }
 
   first_view() {

@@ -146,8 +146,11 @@ nlohmann::json read_run(const fs::path& folder) {
                      {"files", nlohmann::json::array()}};
   nlohmann::json& findings = run["findings"];
   const fs::path file = folder / findings_name;
-  if (!findings.is_object() || findings.value("format", "") != format_name) fail(file, "is no list of findings");
-  if (findings.value("version", 0) != version)
+  const auto is = [&findings](const char* member, const nlohmann::json& value) {
+    return findings.is_object() && findings.contains(member) && findings[member] == value;
+  };
+  if (!is("format", format_name)) fail(file, "is no list of findings");
+  if (!is("version", version))
     fail(file, fmt::format("has version {} of its format, and this program reads {}", json_text(findings["version"]),
                            version));
   std::set<std::string> files;

@@ -168,7 +168,10 @@ class Player(browser.PageTest):
         self.keep("beside")
         pictures = self.ask("player.views.map(view => view.picture())")
         self.assertNotEqual(pictures[0], pictures[1], "the implicit run lags behind")
-        self.assertIn("2: sum", self.driver.find_element(By.CSS_SELECTOR, "#curves figure .keys").text)
+        names = [one.text for one in self.driver.find_elements(By.CSS_SELECTOR, ".view .name")]
+        self.assertIn("verlet", names[0])
+        self.assertIn("backward-euler", names[1])
+        self.assertIn("right: sum", self.driver.find_element(By.CSS_SELECTOR, "#curves figure .keys").text)
 
     def test_is_played_by_keys(self):
         self.open("liver")

@@ -107,6 +107,12 @@ TEST_F(Findings, ThatAreDamagedAreNamedWithTheirLine) {
   replace("\"version\": 1", "\"version\": 7");
   EXPECT_NE(refusal().find("has version 7 of its format, and this program reads 1"), std::string::npos) << refusal();
   std::ofstream(run() / findings_name) << whole;
+  replace("\"version\": 1", "\"version\": [\"x\"]");
+  EXPECT_NE(refusal().find("has version [\"x\"] of its format"), std::string::npos) << refusal();
+  std::ofstream(run() / findings_name) << whole;
+  replace("\"columns\"", "\"pillars\"");
+  EXPECT_NE(write_report({run()}, folder_ / "page.html").find("its data are damaged"), std::string::npos);
+  std::ofstream(run() / findings_name) << whole;
   replace("\"diagrams\"", "\"drawings\"");
   EXPECT_NE(refusal().find("diagrams"), std::string::npos) << refusal();
   std::filesystem::remove(run() / findings_name);
