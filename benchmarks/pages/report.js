@@ -1,9 +1,17 @@
 "use strict";
 
-for (const figure of document.querySelectorAll(".diagram")) {
+// a diagram is drawn before it is seen: drawing all at once would keep the page from answering
+function draw(figure) {
   const data = figure.querySelector("script");
-  if (data) Chart.draw(figure, JSON.parse(data.textContent));
+  if (!data || figure.dataset.drawn) return;
+  figure.dataset.drawn = "yes";
+  Chart.draw(figure, JSON.parse(data.textContent));
 }
+
+const diagrams = [...document.querySelectorAll(".diagram")];
+const coming = new IntersectionObserver(seen => seen.filter(one => one.isIntersecting).forEach(one => draw(one.target)), {rootMargin: "800px"});
+for (const figure of diagrams) coming.observe(figure);
+window.addEventListener("beforeprint", () => diagrams.forEach(draw));
 
 for (const section of document.querySelectorAll(".claims")) {
   const filter = () => {

@@ -81,11 +81,22 @@ class Report(browser.PageTest):
         self.assertEqual(pale(), series - 1)
         self.keep("tradeoff-forward")
 
+    def test_draws_a_diagram_when_it_comes_near(self):
+        self.open("both")
+        drawn = lambda: self.ask("document.querySelectorAll('.diagram[data-drawn]').length")
+        before, every = drawn(), self.ask("document.querySelectorAll('.diagram').length")
+        self.assertLess(before, every)
+        self.do("document.querySelectorAll('.diagram')[arguments[0]].scrollIntoView()", every - 1)
+        self.wait(lambda: drawn() == every)
+        self.assertEqual(self.ask("document.querySelectorAll('.diagram svg').length"),
+                         sum(len(one.get("panels", [0])) for name in ("tradeoff", "extremes") for one in self.parts(name, "diagrams")))
+
     def test_draws_fields_behind_curves(self):
         self.open("extremes")
         fields = sum(bool(panel["field"]["values"]) for one in self.parts("extremes", "diagrams") if one["kind"] == "panels"
                      for panel in one["panels"])
         self.assertGreater(fields, 0)
+        self.do("window.dispatchEvent(new Event('beforeprint'))")  # all are printed
         self.assertEqual(self.ask("document.querySelectorAll('.diagram svg image').length"), fields)
 
     def test_of_two_runs_has_both_with_links_to_their_samples(self):
