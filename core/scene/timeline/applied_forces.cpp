@@ -165,8 +165,9 @@ void AppliedForces::set_values(std::span<const std::uint32_t> point_of_vertex, s
 }
 
 bool AppliedForces::sum_work() const {
-  return std::ranges::any_of(forces_,
-                             [](const Force& force) { return !force.factor.empty() || force.followed != 0.0; });
+  return std::ranges::any_of(forces_, [](const Force& force) {
+    return !force.factor.empty() || force.followed != 0.0 || force.time.from > 0.0 || std::isfinite(force.time.until);
+  });
 }
 
 std::size_t AppliedForces::bytes() const {
