@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "benchmarks/harness/exit_codes.h"
 
@@ -12,7 +13,7 @@ namespace dartboard {
 /// The outcome of the verb that ran; main returns it.
 struct Outcome {
   int exit_code = exit_agrees;
-  std::string command_line;
+  std::vector<std::string> command_line{};  // its words
 };
 
 /// Records that a requested picture could not be drawn, with the reason if it is known: exit_io if all else is well. A

@@ -51,7 +51,8 @@ int written_out(int exit_code) {
 
 int answer(int argc, char** argv, const std::function<void(CLI::App&, Outcome&)>& add_verbs) {
   Outcome outcome;
-  for (int k = 0; k < argc; ++k) outcome.command_line += (k == 0 ? "dartboard" : " " + std::string(argv[k]));
+  outcome.command_line.emplace_back("dartboard");
+  for (int k = 1; k < argc; ++k) outcome.command_line.emplace_back(argv[k]);
 
   CLI::App app("Scores a topology-based mechanical simulator on truth, speed and stability.", "dartboard");
   app.require_subcommand(1);

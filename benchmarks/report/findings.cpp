@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <set>
 #include <system_error>
 #include <vector>
 
+#include "benchmarks/harness/json_number.h"
 #include "benchmarks/harness/json_text.h"
 #include "core/meshes/text/base64.h"
 #include "core/plain/error.h"
@@ -21,8 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* format_name = "dartboard-findings";
 constexpr int version = 1;
-
-nlohmann::json number(double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); }
 
 nlohmann::json numbers(const std::vector<double>& all) {
   nlohmann::json out = nlohmann::json::array();
@@ -101,7 +99,9 @@ std::string bytes_of(const fs::path& file) {
   return bytes;
 }
 
-nlohmann::json read_json(const fs::path& file) {
+}  // namespace
+
+nlohmann::json read_json_file(const fs::path& file) {
   const std::string text = bytes_of(file);
   try {
     return nlohmann::json::parse(text);
@@ -110,8 +110,6 @@ nlohmann::json read_json(const fs::path& file) {
     fail(file, fmt::format("line {}: is no JSON, or ends too soon", 1 + std::count(text.begin(), end, '\n')));
   }
 }
-
-}  // namespace
 
 nlohmann::json begin_findings(const std::string& label) {
   return {{"format", format_name}, {"version", version}, {"label", label}, {"parts", nlohmann::json::array()}};
@@ -141,8 +139,8 @@ nlohmann::json findings_of(const Report& part, const std::string& folder) {
 
 nlohmann::json read_run(const fs::path& folder) {
   nlohmann::json run{{"folder", folder.lexically_normal().filename().string()},
-                     {"manifest", read_json(folder / "manifest.json")},
-                     {"findings", read_json(folder / findings_name)},
+                     {"manifest", read_json_file(folder / "manifest.json")},
+                     {"findings", read_json_file(folder / findings_name)},
                      {"files", nlohmann::json::array()}};
   nlohmann::json& findings = run["findings"];
   const fs::path file = folder / findings_name;

@@ -17,6 +17,11 @@ nlohmann::json begin_findings(const std::string& label);
 /// A complete part of them; `folder` is the one within that of the run which has its files, or empty.
 nlohmann::json findings_of(const Report& part, const std::string& folder);
 
+/// The JSON of a file of a study.
+///
+/// throws  IoError that names the file, and the line in it, where it is missing, cut off or damaged
+nlohmann::json read_json_file(const std::filesystem::path& file);
+
 /// The run that a folder holds: {"folder", "manifest", "findings", "files"}, with the pictures of bodies in it. A study
 /// that was interrupted has the parts that were complete.
 ///

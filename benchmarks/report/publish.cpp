@@ -19,7 +19,7 @@
 #include "benchmarks/harness/run_folder.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/report/findings.h"
-#include "benchmarks/report/finished_children.h"
+#include "benchmarks/report/measured.h"
 #include "benchmarks/report/report_page.h"
 #include "core/base/counted.h"
 
@@ -59,7 +59,8 @@ class LastWords {
 class Publisher : public StudyLog {
  public:
   explicit Publisher(const Publication& how) : how_(how) {
-    if (!how.continues.empty()) earlier_.emplace(how.continues, study());
+    if (!how.continues.empty()) earlier_.emplace(how.continues, study(), MeasuredFor::going_on);
+    if (!how.derives.empty()) earlier_.emplace(how.derives, study(), MeasuredFor::deriving);
     if (how.out.empty() && !how.keeps_folder) return;
     folder_.emplace(run_path(how.out, how.label));
     manifest_ = begin_manifest(how.facts);
@@ -69,25 +70,30 @@ class Publisher : public StudyLog {
   }
 
   void run(const std::vector<std::string>& arguments, const LineSink& on_line) override {
-    std::vector<std::string> lines;
+    MeasuredOutput output;
     if (auto kept = earlier_ ? earlier_->take(arguments) : std::nullopt) {
-      lines = std::move(*kept);
-      for (const std::string& line : lines) on_line(line);
+      output = std::move(*kept);
+      for (const std::string& line : output.lines) on_line(line);
     } else {
-      run_self(arguments, [&](std::string_view line) {
-        lines.emplace_back(line);
-        on_line(line);
-      });
+      try {
+        run_self(arguments, [&](std::string_view line) {
+          output.lines.emplace_back(line);
+          on_line(line);
+        });
+      } catch (const ProcessError& error) {
+        output.failure = error.what();
+      }
     }
-    if (!folder_) return;
-    if (!children_) {
-      children_.emplace(*folder_, study());
-      last_words_.set(fmt::format(
-          "\ndartboard: what was measured is kept. The same command goes on with it, with --continue {} and "
-          "another folder for --out, or none\n",
-          folder_->path().string()));
-    }
-    children_->add(arguments, lines);
+    keep(arguments, output);
+    if (!output.failure.empty()) throw ProcessError(output.failure);
+  }
+
+  nlohmann::json once(const std::string& what, const std::function<nlohmann::json()>& find) override {
+    const std::vector<std::string> arguments{what};
+    const auto kept = earlier_ ? earlier_->take(arguments) : std::nullopt;
+    const MeasuredOutput output = kept ? *kept : MeasuredOutput{.lines = {json_text(find())}};
+    keep(arguments, output);
+    return nlohmann::json::parse(output.lines.at(0));
   }
 
   void say(const std::string& sentence) override {
@@ -123,19 +129,23 @@ class Publisher : public StudyLog {
   int end(const Report& last) {
     finished(last, "");
     last_words_.set("");
-    if (earlier_) {
+    const bool derives = earlier_ && earlier_->use() == MeasuredFor::deriving;
+    if (derives && earlier_->left() > 0)
+      throw IoError(fmt::format("{}: has {} that this program does not ask for", how_.derives,
+                                counted(earlier_->left(), "output", "outputs")));
+    if (earlier_ && !derives) {
       say(fmt::format("{} taken from {}.", counted(earlier_->taken(), "finished process", "finished processes"),
                       earlier_->folder().string()));
       manifest_["continues"] = {{"processes", earlier_->taken()}, {"manifest", earlier_manifest()}};
     }
     bool has_page = false;
     if (folder_) {
-      if (children_) std::filesystem::remove(folder_->path() / ChildrenLog::file_name);
+      if (measured_) measured_->pack();
       manifest_.update(nlohmann::json(last.facts));
       finish_manifest(manifest_);
       folder_->write_manifest(manifest_);
-      const std::string trouble = write_report({folder_->path()}, folder_->path() / report_name);
-      has_page = trouble.empty();
+      const std::string trouble = derives ? "" : write_report({folder_->path()}, folder_->path() / report_name);
+      has_page = trouble.empty() && !derives;
       keep_trouble(trouble);
     }
     if (how_.json) tell("{}\n", json_text(numbers(last), 2));
@@ -146,6 +156,7 @@ class Publisher : public StudyLog {
     if (folder_)
       say(fmt::format("Written to {}{}.", folder_->path().string(),
                       has_page ? fmt::format(", with its page, {}", report_name) : ""));
+    if (derives) return exit_agrees;
     if (exit_code(all_) != 0) return exit_disagrees;
     return all_.troubles.empty() ? exit_agrees : exit_io;
   }
@@ -198,6 +209,19 @@ class Publisher : public StudyLog {
     part("").folder.write_json(findings_name, findings_);
   }
 
+  /// Keeps what was measured; a program that is ended from now on says how to go on with it.
+  void keep(const std::vector<std::string>& arguments, const MeasuredOutput& output) {
+    if (!folder_) return;
+    if (!measured_) {
+      measured_.emplace(*folder_, earlier_ ? earlier_->by() : measured_by(study()));
+      last_words_.set(fmt::format(
+          "\ndartboard: what was measured is kept. The same command goes on with it, with --continue {} and "
+          "another folder for --out, or none\n",
+          folder_->path().string()));
+    }
+    measured_->add(arguments, output);
+  }
+
   void keep_trouble(const std::string& trouble) {
     if (trouble.empty()) return;
     tell(stderr, "{}\n", trouble);
@@ -219,9 +243,9 @@ class Publisher : public StudyLog {
   }
 
   const Publication& how_;
-  std::optional<FinishedChildren> earlier_;
+  std::optional<Measured> earlier_;
   std::optional<RunFolder> folder_;
-  std::optional<ChildrenLog> children_;
+  std::optional<MeasuredLog> measured_;
   LastWords last_words_;
   nlohmann::json manifest_, findings_;
   std::map<std::string, Part> parts_;  // by name; that of the run is ""

@@ -16,14 +16,16 @@ struct Publication {
   bool keeps_folder = true;  // a folder is written even without `out`, in dartboard-results
   bool json = false, quick = false;
   std::string out{};
-  std::string continues{};  // the folder of a study that was interrupted, whose finished children are not run again
+  std::string continues{};  // the folder of a study that was interrupted: what it has measured is not measured again
+  std::string derives{};    // the folder of a study: nothing is measured, and no page made
   RunFacts facts{};
 };
 
 /// Prints text on standard output; with `json` the numbers, claims and manifest there, and the text on standard error.
 /// Writes manifest.json from the start on, claims, tables, pages, pictures, samples.
 ///
-/// returns  the exit status: 0, 1 where something disagrees, or 3 where only a picture could not be drawn
+/// returns  the exit status: 0, 1 where something disagrees, or 3 where only a picture could not be drawn; 0 for one that
+///          is derived again
 /// throws   IoError when the folder or a file cannot be written, and whatever the study throws
 int publish(const Publication& how, const std::function<Report(StudyLog&)>& study);
 

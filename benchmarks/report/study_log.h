@@ -24,10 +24,12 @@ class StudyLog {
   virtual void sample(const nlohmann::json& /*sample*/, const std::string& /*file*/ = "samples.jsonl",
                       const std::string& /*folder*/ = "") {}
   /// Runs this program again in a process of its own, and hands over each line that it prints. Where the study goes on
-  /// after an interruption, a child that had come to its end is not run again (finished_children.h).
+  /// after an interruption, or is derived again, a process that had come to its end is not run again (measured.h).
   ///
   /// throws  ProcessError
   virtual void run(const std::vector<std::string>& arguments, const LineSink& on_line);
+  /// A value that would be another one if it were found again, such as a time: kept as the output of a process is.
+  virtual nlohmann::json once(const std::string& what, const std::function<nlohmann::json()>& find);
   /// The same for one that prints samples: each is recorded, and handed over.
   void measure(const std::vector<std::string>& arguments, const std::function<void(const nlohmann::json&)>& take,
                const std::string& folder = "");

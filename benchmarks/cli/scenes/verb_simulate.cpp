@@ -144,7 +144,7 @@ nlohmann::json continued_manifest(const std::filesystem::path& folder, const Out
   if (!manifest.is_object())
     throw IoError(fmt::format("{}: is missing or damaged; expected what the run left, so nothing has been changed",
                               file.string()));
-  nlohmann::json now = begin_manifest({.command_line = {outcome.command_line}});
+  nlohmann::json now = begin_manifest({.command_line = outcome.command_line});
   now.erase("inputs");
   now.erase("seeds");
   manifest["continued"].push_back(std::move(now));
@@ -162,7 +162,7 @@ std::vector<std::filesystem::path> inputs_of(const SceneFile& scene, const Simul
 /// The inputs of the run, written next to its results.
 nlohmann::json manifest_of(const SceneFile& scene, const SimulateOptions& options, const Outcome& outcome) {
   RunFacts facts;
-  facts.command_line = {outcome.command_line};
+  facts.command_line = outcome.command_line;
   if (options.seed) facts.seeds = {{"added to the seeds of random selections", *options.seed}};
   facts.input_files = inputs_of(scene, options);
   return begin_manifest(facts);

@@ -14,7 +14,7 @@ namespace dartboard {
 
 struct StudyOptions {
   bool json = false, quick = false;
-  std::string out, continues;
+  std::string out, continues, derives;
   std::uint64_t seed = 1;
 };
 
@@ -24,7 +24,7 @@ struct StudyTexts {
   std::string seed{};        // what --seed is the seed of
   bool keeps_folder = true;  // a folder is written even without --out
   std::string out{};         // replaces the usual text of --out
-  bool goes_on = false;      // after an interruption: it measures in processes of their own
+  bool goes_on = false;      // after an interruption, and is derived again: it measures in processes of their own
 };
 void add_study_options(CLI::App& verb, StudyOptions& options, const StudyTexts& texts);
 

@@ -9,10 +9,13 @@
 
 #include "benchmarks/cli/verbs/verbs.h"
 #include "benchmarks/harness/json_text.h"
+#include "benchmarks/harness/scratch_folder.h"
 #include "benchmarks/harness/tell.h"
 #include "benchmarks/pages/page.h"
+#include "benchmarks/report/derived.h"
 #include "benchmarks/report/findings.h"
 #include "benchmarks/report/report_page.h"
+#include "core/base/counted.h"
 
 namespace dartboard {
 namespace {
@@ -20,11 +23,34 @@ namespace {
 struct ReportOptions {
   std::vector<std::string> folders;
   std::string out;
-  bool replace = false, json = false;
+  bool replace = false, json = false, check = false;
 };
+
+/// Derives every file of each folder again, and compares.
+void check(const ReportOptions& options, Outcome& outcome) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const std::string& folder : options.folders) {
+    read_run(folder);  // refuses another format or version in words
+    tell(stderr, "{}: deriving its files again\n", folder);
+    const ScratchFolder scratch("derived");
+    derive_study(folder, scratch.path() / "run");
+    const DerivedComparison found = compare_derived(folder, scratch.path() / "run");
+    if (!found.differences.empty()) outcome.exit_code = exit_disagrees;
+    all.push_back({{"folder", folder}, {"same", found.same}, {"differences", found.differences}});
+    if (options.json) continue;
+    for (const std::string& words : found.differences) tell("{}\n", words);
+    if (found.differences.empty())
+      tell("{}: {} with its tables, claims and samples follow from what was measured.\n", folder,
+           counted(found.same.size(), "file", "files"));
+  }
+  if (options.json) tell("{}\n", json_text(all, 2));
+}
 
 void report(const ReportOptions& options, Outcome& outcome) {
   const std::vector<std::filesystem::path> folders(options.folders.begin(), options.folders.end());
+  for (const auto& folder : folders)
+    if (const auto restored = restore_missing(folder); !restored.empty())
+      tell(stderr, "{}: {} derived again\n", folder.string(), counted(restored.size(), "file", "files"));
   if (options.json) {
     nlohmann::json runs = nlohmann::json::array();
     for (const auto& folder : folders) runs.push_back(read_run(folder));
@@ -47,14 +73,19 @@ void add_report(CLI::App& app, Outcome& outcome) {
   auto options = std::make_shared<ReportOptions>();
   auto* verb = app.get_subcommand("report");
   verb->add_option("DIR", options->folders,
-                   "folders of studies, as --out of reproduce, extremes, tradeoff, validate and bench")
+                   "folders of studies, as --out of reproduce, extremes, tradeoff, validate and bench; files that are "
+                   "missing where a study has measured in processes are derived again")
       ->required();
   auto* out =
       verb->add_option("--out", options->out, "the page, a new file [report.html in DIR, where there is one DIR]")
           ->type_name("FILE.html");
   verb->add_flag("--replace", options->replace, "write it over an earlier page")->needs(out);
   verb->add_flag("--json", options->json, "print the findings and manifests as JSON, and make no page");
+  verb->add_flag("--check", options->check,
+                 "derive every table, claim and sample again from measured.jsonl.gz, and compare; makes no page")
+      ->excludes(out);
   verb->callback([options, &outcome] {
+    if (options->check) return check(*options, outcome);
     if (options->folders.size() > 1 && options->out.empty() && !options->json)
       throw CLI::RequiredError("--out for the page of several folders");
     report(*options, outcome);

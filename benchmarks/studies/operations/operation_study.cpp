@@ -309,5 +309,6 @@ SeriesTime time_series_of_removals(const Problem& problem, int count, std::uint6
 
 DARTBOARD_JSON_FIELDS(OperationSample, body, operation, process, ns, cpu_ns)
 DARTBOARD_JSON_FIELDS(BodySample, body, process, rebuild_ns, step_ns, eventful_step_ns)
+DARTBOARD_JSON_FIELDS(SeriesTime, changes_ns, rebuild_ns)
 
 }  // namespace dartboard

@@ -59,6 +59,8 @@ void study_operations(const std::string& body, const OperationStudyOptions& opti
 struct SeriesTime {
   std::int64_t changes_ns = 0, rebuild_ns = 0;
 };
+void to_json(nlohmann::json& json, const SeriesTime& time);
+void from_json(const nlohmann::json& json, SeriesTime& time);
 SeriesTime time_series_of_removals(const Problem& problem, int count, std::uint64_t seed);
 
 }  // namespace dartboard

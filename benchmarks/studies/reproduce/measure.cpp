@@ -20,15 +20,18 @@ void from_json(const nlohmann::json& json, StepSample& s) {
 }
 
 MeasurePlan plan_measurement(const std::string& scene, const Problem& problem, const std::vector<std::string>& ids,
-                             bool quick, std::uint64_t seed) {
+                             bool quick, std::uint64_t seed, StudyLog& log) {
   MeasurePlan plan{scene, {}, quick ? 6 : 11, quick ? 8 : 24, seed};
   for (const std::string& id : ids) {
-    const auto simulation = contender(id).make(problem);
-    simulation->step(1);  // first touch of its memory
-    const auto start = thread_cpu_ns();
-    simulation->step(1);
-    const double ms = static_cast<double>(thread_cpu_ns() - start) * 1e-6;
-    plan.contenders.push_back({id, ms > 1.0 ? 2 : 20});
+    const int steps = log.once("steps of a round of " + id, [&] {
+      const auto simulation = contender(id).make(problem);
+      simulation->step(1);  // first touch of its memory
+      const auto start = thread_cpu_ns();
+      simulation->step(1);
+      const double ms = static_cast<double>(thread_cpu_ns() - start) * 1e-6;
+      return ms > 1.0 ? 2 : 20;
+    });
+    plan.contenders.push_back({id, steps});
   }
   return plan;
 }

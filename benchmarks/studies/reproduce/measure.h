@@ -37,7 +37,7 @@ void from_json(const nlohmann::json& json, StepSample& s);
 
 /// Choose the steps from one untimed look at each contender.
 MeasurePlan plan_measurement(const std::string& scene, const Problem& problem, const std::vector<std::string>& ids,
-                             bool quick, std::uint64_t seed);
+                             bool quick, std::uint64_t seed, StudyLog& log);
 
 /// Carry out the plan in `plan.processes` processes of this executable, one after the other.
 ///

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "benchmarks/harness/clock.h"
+#include "benchmarks/harness/json_fields.h"
 #include "benchmarks/harness/paired.h"
 #include "benchmarks/paper/paper_claims.h"
 #include "core/mechanics/adapt.h"
@@ -41,6 +42,8 @@ FrameTime time_frame(const Problem& problem, double h) {
 }
 
 }  // namespace
+
+DARTBOARD_JSON_FIELDS(FrameTime, cells, seconds)
 
 int steps_of_frame(double h) { return static_cast<int>(std::ceil(frame_s / h)); }
 
@@ -79,9 +82,12 @@ Claim answer_real_time(std::span<const std::vector<FrameTime>> rounds, bool quic
   return claim;
 }
 
-Claim measure_real_time(double h, bool quick) {
-  std::vector<std::vector<FrameTime>> rounds;
-  for (int round = 0; round < 7; ++round) rounds.push_back(time_frames(h));
+Claim measure_real_time(double h, bool quick, StudyLog& log) {
+  const std::vector<std::vector<FrameTime>> rounds = log.once("frames of bodies that grow", [h] {
+    std::vector<std::vector<FrameTime>> timed;
+    for (int round = 0; round < 7; ++round) timed.push_back(time_frames(h));
+    return timed;
+  });
   return answer_real_time(rounds, quick);
 }
 

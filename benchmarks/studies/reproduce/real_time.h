@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "benchmarks/harness/claim.h"
+#include "benchmarks/report/study_log.h"
 
 namespace dartboard {
 
@@ -22,6 +23,8 @@ struct FrameTime {
   std::size_t cells;
   double seconds;
 };
+void to_json(nlohmann::json& json, const FrameTime& time);
+void from_json(const nlohmann::json& json, FrameTime& time);
 
 /// The number of tetrahedra whose frame takes 1/60 s, by straight lines between the bodies measured, from the origin
 /// on; the largest body where even that is faster.
@@ -35,6 +38,6 @@ std::vector<FrameTime> time_frames(double h);
 /// pre  there is a round
 Claim answer_real_time(std::span<const std::vector<FrameTime>> rounds, bool quick);
 /// Seven rounds, timed.
-Claim measure_real_time(double h, bool quick);
+Claim measure_real_time(double h, bool quick, StudyLog& log);
 
 }  // namespace dartboard

@@ -137,10 +137,13 @@ Claim answer_rebuild(const std::vector<SeriesTime>& series, int removals) {
                   to_string(figure.interval));
 }
 
-Claim measure_rebuild_claim(const Problem& problem) {
+Claim measure_rebuild_claim(const Problem& problem, StudyLog& log) {
   constexpr int removals = 20;
-  std::vector<SeriesTime> series;
-  for (std::uint64_t seed = 1; seed <= 7; ++seed) series.push_back(time_series_of_removals(problem, removals, seed));
+  const std::vector<SeriesTime> series = log.once("series of removals", [&problem] {
+    std::vector<SeriesTime> timed;
+    for (std::uint64_t seed = 1; seed <= 7; ++seed) timed.push_back(time_series_of_removals(problem, removals, seed));
+    return timed;
+  });
   return answer_rebuild(series, removals);
 }
 
@@ -276,12 +279,12 @@ std::vector<Claim> in_order_of_paper(std::vector<Claim> claims) {
   return claims;
 }
 
-std::vector<Claim> answer_claims(const ReproduceResults& results, const Problem& problem) {
+std::vector<Claim> answer_claims(const ReproduceResults& results, const Problem& problem, StudyLog& log) {
   std::vector<Claim> claims = answer_topology(results.counts, problem);
   for (Claim& claim : answer_by_trials(problem)) claims.push_back(std::move(claim));
   for (Claim& claim : answer_time(results)) claims.push_back(std::move(claim));
-  claims.push_back(measure_rebuild_claim(problem));
-  claims.push_back(measure_real_time(problem.h, results.quick));
+  claims.push_back(measure_rebuild_claim(problem, log));
+  claims.push_back(measure_real_time(problem.h, results.quick, log));
   return in_order_of_paper(std::move(claims));
 }
 

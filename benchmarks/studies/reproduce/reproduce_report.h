@@ -8,6 +8,7 @@
 #include "benchmarks/harness/claim.h"
 #include "benchmarks/harness/paired.h"
 #include "benchmarks/harness/table.h"
+#include "benchmarks/report/study_log.h"
 #include "benchmarks/studies/operations/operation_study.h"
 #include "core/mechanics/mass_spring_body.h"
 #include "core/plain/problem.h"
@@ -63,13 +64,13 @@ std::vector<Claim> answer_time(const ReproduceResults& results);
 /// pre  there is a series
 Claim answer_rebuild(const std::vector<SeriesTime>& series, int removals);
 /// Seven series of twenty removals, timed.
-Claim measure_rebuild_claim(const Problem& problem);
+Claim measure_rebuild_claim(const Problem& problem, StudyLog& log);
 
 /// Sorted by the rows of `paper_claims`.
 std::vector<Claim> in_order_of_paper(std::vector<Claim> claims);
 
 /// All claims, in the order of the paper.
-std::vector<Claim> answer_claims(const ReproduceResults& results, const Problem& problem);
+std::vector<Claim> answer_claims(const ReproduceResults& results, const Problem& problem, StudyLog& log);
 
 /// The exit status of the run: 1 if a gate has failed, or as exit_code(claims).
 int reproduce_exit_code(const std::vector<Claim>& claims, bool gates_passed);

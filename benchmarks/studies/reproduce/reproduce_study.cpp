@@ -42,13 +42,13 @@ Report reproduce_paper(const ReproducePlan& plan, StudyLog& log) {
 
   const ReproduceGates gates = gates_of(results.counts, results.motion, results.second);
   if (!gates.agreed.empty()) {
-    const MeasurePlan measured = plan_measurement(body, problem, gates.agreed, plan.quick, plan.seed);
+    const MeasurePlan measured = plan_measurement(body, problem, gates.agreed, plan.quick, plan.seed, log);
     log.say(fmt::format("3. Time per step: {} processes, {} interleaved rounds each\n", measured.processes,
                         measured.rounds));
     results.per_step = per_step(measure(measured, log));
   }
   Report report{.tables = {{"timing", "Time per RK4 step", timing_table(results), timing_note(results, problem)}},
-                .claims = answer_claims(results, problem)};
+                .claims = answer_claims(results, problem, log)};
   if (!gates.passed) report.disagreements.emplace_back("A gate has failed: see above which contenders were not timed.");
   return report;
 }

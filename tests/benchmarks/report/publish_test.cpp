@@ -6,11 +6,14 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "benchmarks/report/measured.h"
+#include "benchmarks/report/report_page.h"
 #include "core/plain/error.h"
 #include "tests/support/folder_for_tests.h"
 
@@ -207,20 +210,21 @@ std::function<Report(StudyLog&)> listed(std::vector<std::string>& lines, bool fa
   };
 }
 
-TEST_F(Publish, KeepsTheLinesOfFinishedProcessesUntilTheStudyHasEnded) {
+TEST_F(Publish, KeepsTheLinesOfFinishedProcessesAndPacksThemWhenTheStudyHasEnded) {
   std::vector<std::string> lines;
   EXPECT_THROW(kept(listed(lines, true)), std::runtime_error);
   ASSERT_FALSE(lines.empty());
-  EXPECT_NE(text("run/children.jsonl").find("PublishStatus."), std::string::npos);
+  EXPECT_NE(text("run/measured.jsonl").find("PublishStatus."), std::string::npos);
   std::filesystem::remove_all(out());
   kept(listed(lines));
-  EXPECT_FALSE(std::filesystem::exists(out() / "children.jsonl"));
+  EXPECT_FALSE(std::filesystem::exists(out() / "measured.jsonl"));
+  EXPECT_TRUE(std::filesystem::exists(out() / packed_measured_name));
 }
 
 TEST_F(Publish, TakesFinishedProcessesFromAnInterruptedStudyAndRunsTheOthers) {
   std::vector<std::string> lines, again;
   EXPECT_THROW(kept(listed(lines, true)), std::runtime_error);
-  const std::string file = (out() / "children.jsonl").string(), found = text("run/children.jsonl");
+  const std::string file = (out() / "measured.jsonl").string(), found = text("run/measured.jsonl");
   std::string changed = found;
   changed.replace(changed.rfind("PublishStatus."), 14, "TakenFromThere");
   std::ofstream(file) << changed << R"({"arguments": ["tor)";  // the program was ended while it wrote
@@ -241,8 +245,8 @@ TEST_F(Publish, TakesFinishedProcessesFromAnInterruptedStudyAndRunsTheOthers) {
 TEST_F(Publish, ContinuesOnlyTheSameStudyOfTheSameBuildThatHasNotEnded) {
   std::vector<std::string> lines;
   EXPECT_THROW(kept(listed(lines, true)), std::runtime_error);
-  const std::string file = (out() / "children.jsonl").string();
-  const std::string kept_before = text("run/children.jsonl");
+  const std::string file = (out() / "measured.jsonl").string();
+  const std::string kept_before = text("run/measured.jsonl");
   std::string changed = kept_before;
   char& digit = changed[changed.find("fnv1a64:") + 8];
   digit = digit == '0' ? '1' : '0';
@@ -259,6 +263,72 @@ TEST_F(Publish, ContinuesOnlyTheSameStudyOfTheSameBuildThatHasNotEnded) {
   EXPECT_EQ(published(how, listed(lines)).status, 0);
   std::filesystem::remove(file);
   EXPECT_THROW(published(how, listed(lines)), IoError);
+}
+
+// ---- studies derived again
+
+/// Measures a value that is another one each time, and a process that fails.
+struct Measuring {
+  int found = 0;
+  Report operator()(StudyLog& log) {
+    Table table({{"value"}, {"failure"}});
+    const int value = log.once("a value", [this] { return ++found; });
+    std::string failure = "none";
+    try {
+      log.run({"--gtest_filter=-*", "--gtest_fail_if_no_test_linked", "--gtest_shuffle", "--gtest_nonsense"},
+              [](std::string_view) {});
+    } catch (const ProcessError& error) {
+      failure = error.what();
+    }
+    log.sample({{"value", value}});
+    table.add_row({std::to_string(value), failure});
+    return {.tables = {{"t", "A value", table}}};
+  }
+};
+
+TEST_F(Publish, DerivesAStudyAgainFromWhatItHadMeasured) {
+  Measuring study;
+  kept(std::ref(study));
+  const Publication how{.label = "test", .out = (folder_ / "again").string(), .derives = out().string()};
+  published(how, std::ref(study));
+  EXPECT_EQ(study.found, 1);
+  for (const char* file : {"t.md", "samples.jsonl", "findings.json", packed_measured_name})
+    EXPECT_EQ(text(std::string("again/") + file), text(std::string("run/") + file)) << file;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "again" / report_name))
+      << "a page has links, and is made in its place";
+}
+
+TEST_F(Publish, DerivesNothingFromOutputsThatAreNotThoseOfTheStudy) {
+  kept([](StudyLog& log) {
+    log.once("a value", [] { return 1; });
+    return Report{};
+  });
+  const Publication how{.label = "test", .out = (folder_ / "again").string(), .derives = out().string()};
+  const auto refusal = [&](const std::function<Report(StudyLog&)>& study) -> std::string {
+    std::filesystem::remove_all(folder_ / "again");
+    try {
+      published(how, study);
+      return "none";
+    } catch (const IoError& error) {
+      return error.what();
+    }
+  };
+  const auto asks = [](const char* what) {
+    return [what](StudyLog& log) {
+      log.once(what, [] { return 1; });
+      return Report{};
+    };
+  };
+  EXPECT_EQ(refusal(asks("a value")), "none");
+  EXPECT_NE(refusal(asks("another")).find("has no output of `another`"), std::string::npos);
+  EXPECT_NE(refusal([](StudyLog&) { return Report{}; }).find("has 1 output that"), std::string::npos);
+  // cut off
+  std::filesystem::resize_file(out() / packed_measured_name,
+                               std::filesystem::file_size(out() / packed_measured_name) - 9);
+  EXPECT_NE(refusal(asks("a value")).find("measured.jsonl.gz: is cut off or damaged after line "), std::string::npos);
+  std::ofstream(out() / packed_measured_name) << R"({"study": {"label": "test", "quick": false, "seeds": {}}})"
+                                              << "\n{\"arguments\": 3}\n";
+  EXPECT_NE(refusal(asks("a value")).find("measured.jsonl.gz:2: is no output of a process"), std::string::npos);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "benchmarks/paper/paper_bodies.h"
 #include "benchmarks/paper/paper_claims.h"
+#include "benchmarks/report/study_log.h"
 #include "benchmarks/studies/reproduce/reproduce_report.h"
 #include "tests/support/claims_for_tests.h"
 
@@ -43,9 +44,10 @@ TEST(PaperAnswers, AreGivenToAllSentencesInTheOrderOfThePaper) {
   ReproduceResults results;
   results.quick = true;
   results.counts = {{"darts", 44544, 44544}, {"vertices", 564, 564}, {"edges", 2850, 2850}, {"volumes", 1856, 1856}};
+  StudyLog log;
   std::vector<std::string> asked, answered;
   for (const PaperClaim& row : paper_claims) asked.emplace_back(row.id);
-  for (const Claim& claim : answer_claims(results, problem)) answered.push_back(claim.id);
+  for (const Claim& claim : answer_claims(results, problem, log)) answered.push_back(claim.id);
   EXPECT_EQ(answered, asked);
 }
 
