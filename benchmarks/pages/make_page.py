@@ -63,7 +63,7 @@ def main(template, data, page):
         # in ASCII, and a string of JSON may hold "</script>"; it is the same string with this escape
         data=lambda value: Markup(json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")))
     try:
-        text = environment.get_template(template).render(content, page=content)
+        text = environment.get_template(template).render(content, page=content, kind=pathlib.Path(template).stem)
     except (jinja2.exceptions.UndefinedError, TypeError) as error:
         fail("its data are damaged, or those of another version: %s" % error)
     pathlib.Path(page).write_text(text, encoding="utf-8")

@@ -16,20 +16,15 @@
 #include "core/scene/output/atomic_file.h"
 
 namespace dartboard {
-namespace {
 
-/// The first line of each page has it, after the type of the document.
-constexpr char made_here[] = "<!-- Made by Dartboard. -->";
-
-}  // namespace
-
-bool is_page(const std::filesystem::path& file) {
+bool is_page(const std::filesystem::path& file, std::string_view name) {
   std::ifstream in(file, std::ios::binary);
   std::string first;
-  return std::getline(in, first) && first.ends_with(made_here);
+  return std::getline(in, first) && first == fmt::format("<!DOCTYPE html><!-- Made by Dartboard: {}. -->", name);
 }
 
-void require_writable_page(const std::filesystem::path& file, bool replace, const std::filesystem::path& made_later) {
+void require_writable_page(const std::filesystem::path& file, std::string_view name, bool replace,
+                           const std::filesystem::path& made_later) {
   std::error_code error;
   const auto as_folder = [](const std::filesystem::path& path) { return (path / "").lexically_normal(); };
   if (!std::filesystem::exists(file, error)) {
@@ -40,9 +35,9 @@ void require_writable_page(const std::filesystem::path& file, bool replace, cons
     return;
   }
   if (!replace) throw IoError(fmt::format("{}: exists; expected a new file for the page, or --replace", file.string()));
-  if (!is_page(file))
+  if (!is_page(file, name))
     throw IoError(
-        fmt::format("{}: is no page made by Dartboard; expected a new file, or such a page to replace", file.string()));
+        fmt::format("{}: is no {} made by Dartboard; expected a new file, or such a page to replace", file.string(), name));
 }
 
 std::string write_page(const std::string& name, const nlohmann::json& page, const std::filesystem::path& file) {

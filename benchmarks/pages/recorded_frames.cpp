@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "benchmarks/figures/run_diagrams.h"
+#include "benchmarks/harness/json_number.h"
 #include "core/meshes/text/base64.h"
 
 namespace dartboard {
@@ -63,7 +64,7 @@ json diagram_of(const RunDiagram& diagram) {
   json curves = json::array();
   for (const RunCurve& curve : diagram.curves) {
     json values = json::array();
-    for (const double value : curve.values) values.push_back(std::isfinite(value) ? json(value) : json(nullptr));
+    for (const double value : curve.values) values.push_back(number(value));
     curves.push_back({{"name", curve.name}, {"values", std::move(values)}, {"is_part", curve.is_part}});
   }
   return {{"title", diagram.title},
@@ -142,7 +143,7 @@ PlayedFrame RecordedFrames::picture_of(const Simulation& simulation) {
   for (const std::uint32_t k : seen) {
     shape.number.push_back(frame.mesh_point.empty() ? std::int64_t{k} : frame.mesh_point[k]);
     shape.held.push_back(frame.held[k]);
-    for (const double x : frame.mesh.points[k]) played.places.push_back(static_cast<float>(x));
+    for (const double x : frame.mesh.points[k]) played.places.push_back(x);
   }
   for (std::size_t q = 0; q < std::size(quantities); ++q) {
     const FrameValues values(quantities[q].by, frame);

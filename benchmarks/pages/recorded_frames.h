@@ -36,15 +36,15 @@ struct PlayedFrame {
 
   double time = 0.0;               // [s]
   std::size_t shape = 0;           // its number
-  std::vector<float> places{};     // [m] three by point
-  std::vector<float> values[3]{};  // by point: of `played_quantities`; empty where the scene has none
+  std::vector<double> places{};    // [m] three by point
+  std::vector<float> values[3]{};  // by point: stress, speed, contact force; empty where the scene has none
   std::vector<Arrow> attachments{};
   std::vector<Arrow> loads{};  // place [m] and external force [N] of points, of which many have one
   Diagnostics diagnostics{};
   ProbeRow probes{};
 };
 
-/// What a page can play, for `page_of` to encode.
+/// What a page can play, for `player_page`.
 class RecordedFrames : public PicturesOfRun<PlayedFrame> {
  public:
   /// pre  the steps ascend

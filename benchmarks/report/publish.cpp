@@ -69,17 +69,19 @@ class Publisher : public StudyLog {
     findings_ = begin_findings(how.label);
   }
 
-  void run(const std::vector<std::string>& arguments, const LineSink& on_line) override {
+  void run(const std::vector<std::string>& arguments, const LineSink& on_line,
+           const std::vector<std::string>& places) override {
     MeasuredOutput output;
     if (auto kept = earlier_ ? earlier_->take(arguments) : std::nullopt) {
       output = std::move(*kept);
       for (const std::string& line : output.lines) on_line(line);
     } else {
       try {
-        run_self(arguments, [&](std::string_view line) {
+        const auto take = [&](std::string_view line) {
           output.lines.emplace_back(line);
           on_line(line);
-        });
+        };
+        StudyLog::run(arguments, take, places);
       } catch (const ProcessError& error) {
         output.failure = error.what();
       }

@@ -25,14 +25,16 @@ class StudyLog {
                       const std::string& /*folder*/ = "") {}
   /// Runs this program again in a process of its own, and hands over each line that it prints. Where the study goes on
   /// after an interruption, or is derived again, a process that had come to its end is not run again (measured.h).
+  /// `places` are further arguments that name files of this run alone, and are not kept.
   ///
   /// throws  ProcessError
-  virtual void run(const std::vector<std::string>& arguments, const LineSink& on_line);
+  virtual void run(const std::vector<std::string>& arguments, const LineSink& on_line,
+                   const std::vector<std::string>& places = {});
   /// A value that would be another one if it were found again, such as a time: kept as the output of a process is.
   virtual nlohmann::json once(const std::string& what, const std::function<nlohmann::json()>& find);
   /// The same for one that prints samples: each is recorded, and handed over.
   void measure(const std::vector<std::string>& arguments, const std::function<void(const nlohmann::json&)>& take,
-               const std::string& folder = "");
+               const std::string& folder = "", const std::vector<std::string>& places = {});
   /// `begin` starts work of that many steps and ends the work before it; `advance` says that one more step is done.
   virtual void begin(const std::string& /*label*/, std::size_t /*steps*/) {}
   virtual void advance(std::string_view /*detail*/ = "") {}

@@ -27,7 +27,7 @@ bool is_of_a_run(const fs::path& file) {
   constexpr std::array drawn{".png", ".svg", ".gif", ".gnuplot", ".dat"};
   if (name == "manifest.json" || name == "summary.json" || name == checkpoint_name || SceneOutput::writes(name))
     return true;
-  if (extension == ".html") return is_page(file);
+  if (extension == ".html") return is_page(file, "player");
   const bool is_drawn = name.starts_with("picture") || name.starts_with("film") || name.starts_with("curves");
   return is_drawn && std::ranges::find(drawn, extension) != drawn.end();
 }

@@ -349,7 +349,7 @@ void add_simulate(CLI::App& app, Outcome& outcome, StepChoice choose_step) {
           "{}: holds an earlier run; expected a new or empty folder for the results, or --replace", options->out));
     if (options->replace && options->out.empty() && options->player.empty())
       throw CLI::RequiresError("--replace", "--out or --player");
-    if (!options->player.empty()) require_writable_page(options->player, options->replace, options->out);
+    if (!options->player.empty()) require_writable_page(options->player, "player", options->replace, options->out);
     simulate(*options, choose_step, outcome);
   });
 }

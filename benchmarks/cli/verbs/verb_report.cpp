@@ -60,7 +60,7 @@ void report(const ReportOptions& options, Outcome& outcome) {
   const std::filesystem::path file =
       options.out.empty() ? folders[0] / report_name : std::filesystem::path(options.out);
   // that of a folder is made from the rest of it, and can be made again
-  require_writable_page(file, options.replace || options.out.empty(), "");
+  require_writable_page(file, "report", options.replace || options.out.empty(), "");
   const std::string trouble = write_report(folders, file);
   if (trouble.empty()) return tell("{} shows {}.\n", file.string(), fmt::join(options.folders, ", "));
   tell(stderr, "{}\n", trouble);

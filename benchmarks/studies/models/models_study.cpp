@@ -32,6 +32,32 @@ std::vector<BarModel> models_of(bool quick) {
 /// Corotational elements take three times as long as others: minutes on the finest meshes.
 int finest(const BarModel& model) { return model.model == Model::corotational ? 6 : 8; }
 
+/// Measured as `measure_model` does; a study that goes on, or is derived again, has it already.
+MeasuredModel measure_once(const ClampedBar& bar, const BarModel& model, int finer, const BarTruth& truth,
+                           StudyLog& log) {
+  const nlohmann::json found = log.once(fmt::format("{}, {} finer, {}", in_words(model), finer, truth.poisson), [&] {
+    const MeasuredModel m = measure_model(bar, model, finer, truth, thread_cpu_ns);
+    const BarErrors& e = m.errors;
+    const BestMethod& best = m.method;
+    return nlohmann::json{
+        {"nodes", m.nodes},
+        {"errors", {e.tip, e.frequencies, e.confined, e.motion, e.worst_frequency}},
+        {"model_motion", m.model_motion},
+        {"allowed", m.allowed},
+        {"method", {best.integrator, best.steps, best.error, best.total_error, best.step_ns, best.followed}},
+        {"h", m.h}};
+  });
+  const nlohmann::json &e = found.at("errors"), &best = found.at("method");
+  return {.model = model,
+          .finer = finer,
+          .nodes = found.at("nodes"),
+          .errors = {e.at(0), e.at(1), e.at(2), e.at(3), e.at(4)},
+          .model_motion = found.at("model_motion"),
+          .allowed = found.at("allowed"),
+          .method = {best.at(0), best.at(1), best.at(2), best.at(3), best.at(4), best.at(5)},
+          .h = found.at("h")};
+}
+
 ModelPoint point_of(const MeasuredModel& m, double poisson) {
   ModelPoint point{.timed = {.model = in_words(m.model),
                              .finer = m.finer,
@@ -99,7 +125,7 @@ Report models_study(const ModelsPlan& plan, StudyLog& log) {
     for (const BarModel& model : models)
       for (const int finer : meshes.models) {
         if (finer > finest(model)) continue;
-        const MeasuredModel m = measure_model(bar, model, finer, results.truths.back(), thread_cpu_ns);
+        const MeasuredModel m = measure_once(bar, model, finer, results.truths.back(), log);
         log.advance(fmt::format("{}, {} finer, {}", in_words(model), finer, poisson));
         if (m.method.integrator.empty())
           log.say(fmt::format("{}, {} finer: no integrator follows it closely enough", in_words(model), finer));

@@ -31,7 +31,7 @@ struct Extent {
 template <class Counts>
 void measure_in_process(std::vector<std::string> arguments, std::uint64_t seed, const char* key, StudyLog& log,
                         std::vector<Sample>& samples, const std::function<void(Counts)>& take,
-                        const std::string& folder = "") {
+                        const std::string& folder = "", const std::vector<std::string>& places = {}) {
   arguments.insert(arguments.end(), {"--seed", std::to_string(seed)});
   log.measure(
       arguments,
@@ -41,7 +41,7 @@ void measure_in_process(std::vector<std::string> arguments, std::uint64_t seed, 
         else
           samples.push_back(json.get<Sample>());
       },
-      folder);
+      folder, places);
 }
 
 Report report_on_unchanged(const StepBenchPlan& plan, const Extent& extent, StudyLog& log) {
@@ -67,11 +67,11 @@ Report report_on_changed(const Extent& extent, StudyLog& log) {
     for (const std::string& kind : kinds_of_change()) {
       const ScratchFolder folder("step");
       const auto measure = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> arguments{"measure-changed",     "--body", body, "--kind", kind, "--folder",
-                                           folder.path().string()};
+        std::vector<std::string> arguments{"measure-changed", "--body", body, "--kind", kind};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        measure_in_process<ChangedCase>(arguments, extent.seed, "changed", log, costs.samples,
-                                        [&](const ChangedCase& one) { costs.cases.push_back(one); });
+        measure_in_process<ChangedCase>(
+            arguments, extent.seed, "changed", log, costs.samples,
+            [&](const ChangedCase& one) { costs.cases.push_back(one); }, "", {"--folder", folder.path().string()});
         log.advance(body);
       };
       measure({"--compare"});

@@ -56,7 +56,7 @@ inline constexpr const char *changed = ": changed", *fresh = ": fresh";
 struct ChangedPlan {
   std::string body;              // a name of step_bodies.h
   std::string kind;              // one of kinds_of_change
-  std::filesystem::path folder;  // for columns: written by the comparison, read by each process that times
+  std::filesystem::path folder;  // for columns: written by the comparison or the first process that times, read by each
   int process = 0;
   int rounds = 10;  // a fifth of them for the largest box
   std::uint64_t seed = 1;

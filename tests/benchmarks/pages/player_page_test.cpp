@@ -37,7 +37,7 @@ TEST_F(PlayerPageTest, HoldsItsDataWhateverTheyAreCalled) {
   EXPECT_EQ(nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from)), page);
   EXPECT_NE(html.find("<h1>&lt;/script&gt;&lt;script&gt;&amp;&#34;&#39;\\ \u00e9</h1>"), std::string::npos);
   EXPECT_NE(html.find("warning: it is too stiff"), std::string::npos);
-  EXPECT_TRUE(is_page(folder_ / "page.html"));
+  EXPECT_TRUE(is_page(folder_ / "page.html", "player"));
 }
 
 TEST_F(PlayerPageTest, IsSeenFromWherePicturesAre) {
@@ -48,13 +48,14 @@ TEST_F(PlayerPageTest, IsSeenFromWherePicturesAre) {
 }
 
 TEST_F(PlayerPageTest, IsWrittenOverAPageAloneAndOnlyWhereThatIsAsked) {
-  write("page.html", "<!DOCTYPE html><!-- Made by Dartboard. -->\n");
-  write("other.html", "<!DOCTYPE html>\n<!-- Made by Dartboard. -->\n");
-  EXPECT_THROW(require_writable_page(folder_ / "page.html", false, ""), IoError);
-  EXPECT_NO_THROW(require_writable_page(folder_ / "page.html", true, ""));
-  EXPECT_THROW(require_writable_page(folder_ / "other.html", true, ""), IoError);
-  EXPECT_THROW(require_writable_page(folder_ / "none" / "page.html", false, ""), IoError);
-  EXPECT_NO_THROW(require_writable_page(folder_ / "none" / "page.html", false, folder_ / "none/"));
+  write("page.html", "<!DOCTYPE html><!-- Made by Dartboard: player. -->\n");
+  write("other.html", "<!DOCTYPE html>\n<!-- Made by Dartboard: player. -->\n");
+  EXPECT_THROW(require_writable_page(folder_ / "page.html", "player", false, ""), IoError);
+  EXPECT_NO_THROW(require_writable_page(folder_ / "page.html", "player", true, ""));
+  EXPECT_THROW(require_writable_page(folder_ / "page.html", "report", true, ""), IoError);
+  EXPECT_THROW(require_writable_page(folder_ / "other.html", "player", true, ""), IoError);
+  EXPECT_THROW(require_writable_page(folder_ / "none" / "page.html", "player", false, ""), IoError);
+  EXPECT_NO_THROW(require_writable_page(folder_ / "none" / "page.html", "player", false, folder_ / "none/"));
 }
 
 }  // namespace
