@@ -36,8 +36,8 @@ void require_writable_page(const std::filesystem::path& file, std::string_view n
   }
   if (!replace) throw IoError(fmt::format("{}: exists; expected a new file for the page, or --replace", file.string()));
   if (!is_page(file, name))
-    throw IoError(
-        fmt::format("{}: is no {} made by Dartboard; expected a new file, or such a page to replace", file.string(), name));
+    throw IoError(fmt::format("{}: is no {} made by Dartboard; expected a new file, or such a page to replace",
+                              file.string(), name));
 }
 
 std::string write_page(const std::string& name, const nlohmann::json& page, const std::filesystem::path& file) {

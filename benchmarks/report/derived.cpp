@@ -77,8 +77,13 @@ std::optional<std::string> difference(const fs::path& there, const fs::path& der
 
 void derive_study(const fs::path& folder, const fs::path& into) {
   std::vector<std::string> arguments = arguments_of(folder);
+  measured_file(folder);  // refuses one that has none
   arguments.insert(arguments.end(), {"--derive-from", folder.string(), "--out", into.string()});
-  run_self(arguments, [](std::string_view) {});
+  try {
+    run_self(arguments, [](std::string_view) {});
+  } catch (const ProcessError&) {  // it has said why
+    throw IoError(fmt::format("{}: its files cannot be derived again", folder.string()));
+  }
 }
 
 DerivedComparison compare_derived(const fs::path& folder, const fs::path& derived) {

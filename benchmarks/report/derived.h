@@ -10,7 +10,7 @@ namespace dartboard {
 /// Derive them, and the pictures, in a new folder `into`, by this program: the study is run again, with the options
 /// that its manifest names, and takes every output of a process and every time from its measured.jsonl.gz.
 ///
-/// throws  IoError, ProcessError
+/// throws  IoError where it has measured nothing in processes, or that is damaged or not what this program asks for
 void derive_study(const std::filesystem::path& folder, const std::filesystem::path& into);
 
 /// The files of a study compared with those derived again, all but manifest, page and pictures.

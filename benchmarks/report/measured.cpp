@@ -47,7 +47,8 @@ std::string unpacked(const fs::path& file) {
   }
 }
 
-/// The file of a folder that holds it.
+}  // namespace
+
 fs::path measured_file(const fs::path& folder) {
   for (const char* name : {measured_name, packed_measured_name}) {
     std::error_code error;
@@ -60,8 +61,6 @@ fs::path measured_file(const fs::path& folder) {
                                     packed_measured_name)
                       : "there is no such folder"));
 }
-
-}  // namespace
 
 Json measured_by(const Json& study) {
   return {

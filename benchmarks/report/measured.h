@@ -24,6 +24,11 @@ struct MeasuredOutput {
   std::string failure{};
 };
 
+/// The file of a folder that has it, compressed or not.
+///
+/// throws  IoError where there is none
+std::filesystem::path measured_file(const std::filesystem::path& folder);
+
 /// The program and the processor that measure; `study` names the study and its options.
 nlohmann::json measured_by(const nlohmann::json& study);
 

@@ -69,9 +69,9 @@ Report report_on_changed(const Extent& extent, StudyLog& log) {
       const auto measure = [&](const std::vector<std::string>& more) {
         std::vector<std::string> arguments{"measure-changed", "--body", body, "--kind", kind};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        measure_in_process<ChangedCase>(
-            arguments, extent.seed, "changed", log, costs.samples,
-            [&](const ChangedCase& one) { costs.cases.push_back(one); }, "", {"--folder", folder.path().string()});
+        measure_in_process<ChangedCase>(arguments, extent.seed, "changed", log, costs.samples,
+                                        [&](const ChangedCase& one) { costs.cases.push_back(one); }, "",
+                                        {"--folder", folder.path().string()});
         log.advance(body);
       };
       measure({"--compare"});
