@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "core/base/median.h"
 #include "core/plain/error.h"
@@ -51,6 +53,20 @@ double share_with_chance(std::size_t good, std::size_t all, double chance) {
   return 0.5 * (low + high);
 }
 
+/// The number of ways to order n values and m others in which the others precede them u times, for all u <= n m.
+std::vector<double> counts_of_mann_whitney(std::size_t n, std::size_t m) {
+  std::vector<std::vector<double>> row(m + 1, std::vector<double>{1.0});  // of no value
+  for (std::size_t i = 1; i <= n; ++i)
+    for (std::size_t j = 1; j <= m; ++j) {
+      // the last of all is one of the values, which all j others precede, or one of the others
+      std::vector<double> counts(i * j + 1, 0.0);
+      for (std::size_t u = 0; u < row[j].size(); ++u) counts[u + j] += row[j][u];
+      for (std::size_t u = 0; u < row[j - 1].size(); ++u) counts[u] += row[j - 1][u];
+      row[j] = std::move(counts);
+    }
+  return row[m];
+}
+
 void require_confidence(double confidence) {
   if (!(confidence > 0.0 && confidence < 1.0))
     throw InputError(fmt::format("confidence {} is not in ]0, 1[", confidence));
@@ -77,6 +93,28 @@ Interval median_interval(std::span<const double> sample, double confidence) {
   std::size_t k = 1;
   while (2 * (k + 1) <= n && coverage_of(k + 1) >= confidence) ++k;
   return {values[k - 1], values[n - k], coverage_of(k), coverage_of(k) >= confidence};
+}
+
+Shift shift_between(std::span<const double> from, std::span<const double> to, double confidence) {
+  require_confidence(confidence);
+  std::vector<double> differences;
+  for (const double a : from)
+    for (const double b : to) differences.push_back(b - a);
+  differences = sorted(differences);
+  const std::vector<double> counts = counts_of_mann_whitney(from.size(), to.size());
+  const double all = std::accumulate(counts.begin(), counts.end(), 0.0);
+  // the k-th smallest and the k-th largest difference enclose the shift unless fewer than k precede, or follow
+  Shift shift{.median = quantile_of_sorted(differences, 0.5)};
+  double below = 0.0;
+  for (std::size_t k = 0; 2 * k + 1 < differences.size() || k == 0; ++k) {
+    below += counts[k] / all;
+    const double coverage = 1.0 - 2.0 * below;
+    if (k > 0 && coverage < confidence) break;
+    shift.interval = {differences[k], differences[differences.size() - 1 - k], std::max(0.0, coverage),
+                      coverage >= confidence};
+    if (coverage < confidence) break;
+  }
+  return shift;
 }
 
 Interval share_interval(std::size_t good, std::size_t all, double confidence) {

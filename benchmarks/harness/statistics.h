@@ -32,6 +32,20 @@ struct Interval {
 /// throws  InputError unless 0 < confidence < 1
 Interval median_interval(std::span<const double> sample, double confidence = 0.95);
 
+/// How much larger the values of one sample are than those of another: the median of all differences (Hodges and
+/// Lehmann), and the interval of the differences that Mann and Whitney's test does not refuse.
+///
+/// It covers the shift of two distributions of one shape, whatever that shape is. Too few values cannot reach the
+/// confidence (for 95 %, four and four can); the answer is then that of the extremes, and `reached` is false.
+///
+/// throws  InputError unless 0 < confidence < 1
+/// cost    O(n m log(n m)) for samples of n and m, and O(n^2 m^2) for the coverage
+struct Shift {
+  double median = 0.0;
+  Interval interval{};
+};
+Shift shift_between(std::span<const double> from, std::span<const double> to, double confidence = 0.95);
+
 /// The interval of Clopper and Pearson for the share of good ones in a population, of which `all` were drawn and `good`
 /// of these are good: it covers that share at least so often, whatever the share is.
 ///

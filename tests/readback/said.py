@@ -179,7 +179,8 @@ class Said(unittest.TestCase):
         self.assertEqual(list(manifest["seeds"].values()), [3])
         out = os.path.basename(run.folder)  # folders of the machine are not published
         self.assertEqual(manifest["command_line"],
-                         ["dartboard simulate scene.json --json --out %s --seed 3" % out])
+                         ["dartboard", "simulate", "scene.json", "--json", "--out", out, "--seed", "3"])
+        self.assertEqual(manifest["scene"]["body"], {"mesh": "solid.mesh"})
 
     # ---- output of a run that diverges
 

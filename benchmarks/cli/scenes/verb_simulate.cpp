@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -159,13 +160,28 @@ std::vector<std::filesystem::path> inputs_of(const SceneFile& scene, const Simul
   return files;
 }
 
+/// A scene as its file has it, but for absolute paths.
+nlohmann::json published_scene(const std::string& text) {
+  nlohmann::json scene = nlohmann::json::parse(text, nullptr, false);
+  const std::function<void(nlohmann::json&)> publish = [&publish](nlohmann::json& value) {
+    if (value.is_structured())
+      for (nlohmann::json& part : value) publish(part);
+    else if (value.is_string() && value.get<std::string>().starts_with('/'))
+      value = published_path(value.get<std::string>());
+  };
+  publish(scene);
+  return scene;
+}
+
 /// The inputs of the run, written next to its results.
 nlohmann::json manifest_of(const SceneFile& scene, const SimulateOptions& options, const Outcome& outcome) {
   RunFacts facts;
   facts.command_line = outcome.command_line;
   if (options.seed) facts.seeds = {{"added to the seeds of random selections", *options.seed}};
   facts.input_files = inputs_of(scene, options);
-  return begin_manifest(facts);
+  nlohmann::json manifest = begin_manifest(facts);
+  manifest["scene"] = published_scene(scene.text);
+  return manifest;
 }
 
 void simulate(const SimulateOptions& options, const StepChoice& choose_step, Outcome& outcome) {

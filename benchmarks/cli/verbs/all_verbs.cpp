@@ -18,6 +18,7 @@ void add_all_verbs(CLI::App& app, Outcome& outcome) {
   add_gallery(app, outcome);
   add_mesh(app, outcome);
   add_report(app, outcome);
+  add_compare(app, outcome);
   add_list(app, outcome);
   add_measure(app, outcome);
 }

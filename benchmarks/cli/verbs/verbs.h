@@ -21,6 +21,7 @@ void add_extremes(CLI::App& app, Outcome& outcome);
 void add_explain_dt(CLI::App& app, Outcome& outcome);
 void add_gallery(CLI::App& app, Outcome& outcome);
 void add_report(CLI::App& app, Outcome& outcome);
+void add_compare(CLI::App& app, Outcome& outcome);
 void add_list(CLI::App& app, Outcome& outcome);
 
 // The parts of `validate`; that on elements also gives `app` the hidden verb that its child processes run.

@@ -142,5 +142,49 @@ TEST(ShareInterval, IsRefusedOfNothing) {
   EXPECT_THROW(share_interval(1, 2, 1.0), InputError);
 }
 
+// Of the C(10, 5) orders of five values and five others, 1, 1 and 2 have 0, 1 and 2 pairs the wrong way round.
+TEST(ShiftBetween, IsTheMedianOfAllDifferencesWithTheIntervalOfMannAndWhitney) {
+  const std::vector<double> from{1.0, 2.0, 4.0, 8.0, 16.0}, to{101.0, 102.0, 104.0, 108.0, 116.0};
+  const Shift shift = shift_between(from, to);
+  EXPECT_EQ(shift.median, 100.0);
+  // the differences are 85, 86, 88, 92 ... 108, 112, 114, 115
+  EXPECT_EQ(shift.interval.low, 88.0);
+  EXPECT_EQ(shift.interval.high, 112.0);
+  EXPECT_DOUBLE_EQ(shift.interval.coverage, 1.0 - 2.0 * 4.0 / 252.0);
+  EXPECT_TRUE(shift.interval.reached);
+}
+
+TEST(ShiftBetween, NeedsFourAndFourValuesForNinetyFivePercent) {
+  const Shift four = shift_between(ranks(4), ranks(4));
+  EXPECT_EQ(four.interval.low, -3.0);
+  EXPECT_EQ(four.interval.high, 3.0);
+  EXPECT_DOUBLE_EQ(four.interval.coverage, 1.0 - 2.0 / 70.0);
+  EXPECT_TRUE(four.interval.reached);
+  const Shift three = shift_between(ranks(3), ranks(3));
+  EXPECT_DOUBLE_EQ(three.interval.coverage, 1.0 - 2.0 / 20.0);
+  EXPECT_FALSE(three.interval.reached);
+  EXPECT_THROW(shift_between({}, ranks(3)), InputError);
+  EXPECT_THROW(shift_between(ranks(3), ranks(3), 1.0), InputError);
+}
+
+// Drawn from one skewed distribution, moved by 0.3.
+TEST(ShiftBetween, CoversTheShiftAsOftenAsItSays) {
+  std::mt19937 random(7);
+  std::exponential_distribution<double> skewed(1.0);
+  int covered = 0;
+  double promised = 0.0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::vector<double> from(7), to(9);
+    for (double& x : from) x = skewed(random);
+    for (double& x : to) x = skewed(random) + 0.3;
+    const Interval interval = shift_between(from, to).interval;
+    promised = interval.coverage;
+    covered += interval.low <= 0.3 && 0.3 <= interval.high ? 1 : 0;
+  }
+  // four standard deviations of a share of 2000
+  EXPECT_NEAR(covered / 2000.0, promised, 4.0 * std::sqrt(promised * (1.0 - promised) / 2000.0));
+  EXPECT_GE(promised, 0.95);
+}
+
 }  // namespace
 }  // namespace dartboard::statistics_test

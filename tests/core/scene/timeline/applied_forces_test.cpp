@@ -236,6 +236,24 @@ TEST(AppliedForces, HaveAPotentialThatEnergyComesFrom) {
   EXPECT_NEAR(x, 1.25 - 0.25 * std::cos(std::sqrt(8.0)), 1e-4);
 }
 
+// The work of one that begins and ends meanwhile stays in the account.
+TEST(AppliedForces, LeaveTheEnergyTheyGaveInTheAccountWhenTheyEnd) {
+  Json scene = Json::parse(R"({"name": "mass", "step": 0.01, "duration": 1, "gravity": [0, 0, 0],
+    "body": {"generate": {"chain": {"links": 1, "spacing": 1}}}, "fixed": [{"ids": [0]}],
+    "material": {"density": 2, "stiffness": 8, "damping": 0, "viscosity": 0}, "integrator": "energy-momentum"})");
+  for (const char* when : {R"({"from": 0.2, "until": 0.5})", R"({"until": 0.5})", R"({"from": 0.205})"}) {
+    Json force = Json::parse(R"({"ids": [1], "force": [2, 0, 0]})");
+    force.update(Json::parse(when));
+    scene["forces"] = Json::array({force});
+    Simulation simulation(parse(scene));
+    const double first = simulation.diagnostics().energy();
+    run(simulation);
+    const Diagnostics last = simulation.diagnostics();
+    EXPECT_GT(last.kinetic + last.elastic, 0.05) << when;
+    EXPECT_NEAR(last.energy(), first, 1e-12) << when;
+  }
+}
+
 TEST(AppliedForces, AreNotToldWhereASceneHasNone) {
   EXPECT_FALSE(Simulation(parse(moving_box())).diagnostics().applied);
   EXPECT_TRUE(Simulation(parse(moving_box())).body().vertices().pull.empty());
