@@ -10,7 +10,7 @@ namespace dartboard {
 void add_compare(CLI::App& app, Outcome& outcome) {
   struct Options : StudyOptions {
     std::string first, second;
-    double least = 3.0, within = 0.0;
+    double least = 5.0, within = 0.0;
   };
   auto* verb = app.get_subcommand("compare");
   auto options = study_options<Options>(*verb, {.keeps_folder = false});
@@ -18,7 +18,7 @@ void add_compare(CLI::App& app, Outcome& outcome) {
   verb->add_option("SECOND", options->second,
                    "that of another run of it: another commit, other options, another machine; or of the same body")
       ->required();
-  verb->add_option("--least", options->least, "percent by which a time has to change for the change to count [3]")
+  verb->add_option("--least", options->least, "percent by which a time has to change for the change to count [5]")
       ->check(CLI::Range(0.0, 1000.0));
   verb->add_option("--within", options->within, "edge lengths that vertices of two scenes may be apart [0]")
       ->check(CLI::NonNegativeNumber);

@@ -96,6 +96,10 @@ std::string note_on(const ComparedTimes& times, double least) {
 std::vector<ComparedSetting> compare_manifests(const Json& first, const Json& second) {
   const auto settings_of = [](Json manifest) {
     for (const char* key : {"started", "finished", "cpu_s", "wall_s"}) manifest.erase(key);
+    std::string command;
+    for (const Json& word : manifest.value("command_line", Json::array()))
+      command += (command.empty() ? "" : " ") + word.get<std::string>();
+    manifest["command_line"] = command;
     return manifest.flatten();
   };
   const Json a = settings_of(first), b = settings_of(second);

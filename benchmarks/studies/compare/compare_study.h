@@ -13,7 +13,7 @@ namespace dartboard {
 
 struct ComparePlan {
   std::filesystem::path first, second;  // folders
-  double least = 0.03;                  // a change of times that counts, as a share
+  double least = 0.05;                  // a change of times that counts, as a share
   double within = 0.0;                  // [edges] a distance of vertices that does not count
 };
 
