@@ -34,8 +34,9 @@ inline constexpr std::array verb_names{
              "Which springs, elements and vertices limit the time step of a scene, and what changing them would buy."},
     VerbName{"gallery", "Run every scene that comes with the program, judge it, and draw it."},
     VerbName{"report", "Make the page of one study, or of several, from the folders that they have left."},
-    VerbName{"compare",
-             "Compare two runs of a study, task by task and verdict by verdict; or of a scene: when and how far they part."},
+    VerbName{
+        "compare",
+        "Compare two runs of a study, task by task and verdict by verdict; or of a scene: when and how far they part."},
     VerbName{"mesh", "Look at a mesh file, or at the formats that are read.", true},
     VerbName{"list", "List scenes, contenders, integrators and claims."},
 };

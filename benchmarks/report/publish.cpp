@@ -22,6 +22,7 @@
 #include "benchmarks/report/measured.h"
 #include "benchmarks/report/report_page.h"
 #include "core/base/counted.h"
+#include "core/plain/error.h"
 
 namespace dartboard {
 

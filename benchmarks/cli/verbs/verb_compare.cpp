@@ -1,4 +1,4 @@
-#include <CLI/Validators.hpp>
+#include <CLI/App.hpp>
 #include <string>
 
 #include "benchmarks/cli/studies/study_options.h"

@@ -17,10 +17,10 @@ struct FrameDistance {
 };
 
 struct ComparedMotion {
-  double edge = 0.0;                        // [m] the median of the first frame of the first run
+  double edge = 0.0;                       // [m] the median of the first frame of the first run
   std::vector<FrameDistance> distances{};  // at the times of frames of both, as long as they have the same cells
-  std::optional<double> cells_part{};       // [s] the first of these times at which they have not
-  std::size_t frames[2]{};                  // of each run
+  std::optional<double> cells_part{};      // [s] the first of these times at which they have not
+  std::size_t frames[2]{};                 // of each run
 
   const FrameDistance* furthest() const;
   /// [s] The first time at which some vertex is further off than so many edge lengths.
