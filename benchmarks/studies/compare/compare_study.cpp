@@ -87,7 +87,7 @@ std::string note_on(const ComparedTimes& times, double least) {
       "Processor times by process, the median over its rounds; the ratio of two runs is the median over all pairs of\n"
       "processes, with Mann and Whitney's interval, and all intervals hold together at 95 %. All tasks together take\n"
       "{} of the time of the first run: that is the machine's share, or of the build as a whole, and is taken out of\n"
-      "each task. A change counts where the interval excludes 1 and the ratio is off by {:g} % or more.",
+      "each task. A change counts where the ratio is off by {:g} % or more, and its whole interval by half of that.",
       in_words(times.all), 100.0 * least);
 }
 

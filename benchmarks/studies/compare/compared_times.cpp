@@ -78,8 +78,9 @@ Shift as_ratio(Shift shift) {
 
 TimeVerdict verdict_of(const Shift& ratio, double least) {
   if (!ratio.interval.reached) return TimeVerdict::cannot_tell;
-  if (ratio.interval.low > 1.0 && ratio.median >= 1.0 + least) return TimeVerdict::slower;
-  if (ratio.interval.high < 1.0 && ratio.median <= 1.0 / (1.0 + least)) return TimeVerdict::faster;
+  if (ratio.interval.low >= 1.0 + 0.5 * least && ratio.median >= 1.0 + least) return TimeVerdict::slower;
+  if (ratio.interval.high <= 1.0 / (1.0 + 0.5 * least) && ratio.median <= 1.0 / (1.0 + least))
+    return TimeVerdict::faster;
   const bool within = ratio.interval.low >= 1.0 / (1.0 + least) && ratio.interval.high <= 1.0 + least;
   return within ? TimeVerdict::same : TimeVerdict::cannot_tell;
 }

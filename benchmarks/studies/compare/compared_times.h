@@ -48,9 +48,9 @@ struct ComparedTimes {
 /// use. So a change of more than half of all tasks is seen as common, and does not show in any. Fewer than three tasks
 /// are compared as they are.
 ///
-/// The intervals hold together: each at a confidence of 1 - 0.05 / tasks. A task is slower or faster where the interval
-/// excludes 1 and the ratio is off by at least `least`; the same where the interval is within that; else one cannot
-/// tell.
+/// The intervals hold together: each at a confidence of 1 - 0.05 / tasks. A task is slower or faster where the ratio is
+/// off by at least `least`, and the whole interval by half of that, since two runs of one program part by more than
+/// their processes show; the same where the interval is within that; else one cannot tell.
 ComparedTimes compare_times(const TimedTasks& first, const TimedTasks& second, double least);
 
 }  // namespace dartboard
