@@ -62,6 +62,17 @@ TEST_F(CompareScenes, SayWhenAndHowFarTwoIntegratorsPartAndWhichKeyDiffers) {
   EXPECT_EQ(compare("--within 0.02").status, 0);
 }
 
+// They are quoted in the header of their file.
+TEST_F(CompareScenes, TakeProbesWithCommasAndQuotesInTheirNames) {
+  const json probes = json::parse(R"json({"output": {"frames_every": 0.05,
+    "probes": [{"name": "tip, \"left\"", "near": [0, 0, 0]}]}})json");
+  simulate("a", "verlet", probes);
+  simulate("b", "symplectic-euler", probes);
+  const Answer apart = compare();
+  EXPECT_EQ(apart.status, 1) << apart.out;
+  EXPECT_NE(apart.out.find("tip, "), std::string::npos) << apart.out;
+}
+
 TEST_F(CompareScenes, SayFromWhenOnCellsAreOthers) {
   simulate("a", "verlet");
   simulate("b", "verlet", {{"events", json::parse(R"([{"at": 0.03, "remove": {"random": {"count": 1}}}])")}});

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <map>
 #include <regex>
-#include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "core/meshes/mesh_facts.h"
@@ -62,6 +62,20 @@ FrameDistance distance_of(const Mesh& a, const Mesh& b, double time, double edge
   return distance;
 }
 
+/// The fields of a line as csv_field writes them: one with a comma or a quote is in quotes, and its quotes are doubled.
+std::vector<std::string> fields_of(std::string_view line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (const char letter : line) {
+    if (letter == '"') quoted = !quoted;
+    if (letter == ',' && !quoted)
+      fields.emplace_back();
+    else
+      fields.back() += letter;
+  }
+  return fields;
+}
+
 /// A file of numbers under a header, by rows.
 struct Numbers {
   std::vector<std::string> header;
@@ -71,15 +85,11 @@ struct Numbers {
 Numbers read_numbers(const fs::path& file) {
   Numbers numbers;
   std::ifstream in(file);
-  std::string line, cell;
-  for (std::size_t number = 1; std::getline(in, line); ++number) {
-    std::istringstream cells(line);
+  std::string line;
+  if (std::getline(in, line)) numbers.header = fields_of(line);
+  for (std::size_t number = 2; std::getline(in, line); ++number) {
     std::vector<double> row;
-    for (; std::getline(cells, cell, ',');) {
-      if (number == 1) {
-        numbers.header.push_back(cell);
-        continue;
-      }
+    for (const std::string& cell : fields_of(line)) {
       std::size_t read = 0;
       double value = 0.0;
       try {
@@ -91,7 +101,6 @@ Numbers read_numbers(const fs::path& file) {
         throw IoError(fmt::format("{}:{}: '{}' is no number", file.string(), number, cell));
       row.push_back(value);
     }
-    if (number == 1) continue;
     if (row.size() != numbers.header.size())
       throw IoError(fmt::format("{}:{}: has {} numbers; expected {}, or it is cut off", file.string(), number,
                                 row.size(), numbers.header.size()));
