@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <iterator>
+#include <regex>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -17,6 +19,8 @@
 
 namespace dartboard {
 namespace {
+
+constexpr double paper_inches = 7.0;  // the width of a page's text
 
 // "#rrggbb" and the opacity, as gnuplot's #aarrggbb, where 00 is solid.
 std::string colour(const PlotSeries& series) {
@@ -122,6 +126,38 @@ std::string run_gnuplot(const std::string& gnuplot, const std::filesystem::path&
     return fmt::format("no picture of {}: {}{}; its data and script are kept", name, error.what(), said);
   }
   return "";
+}
+
+std::vector<std::string> draw_for_paper(const std::filesystem::path& folder, const std::string& gnuplot) {
+  const std::string added = "-paper";
+  std::vector<std::filesystem::path> scripts;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".gnuplot" && !entry.path().stem().string().ends_with(added))
+      scripts.push_back(entry.path());
+  std::ranges::sort(scripts);
+  std::vector<std::string> troubles;
+  for (const std::filesystem::path& script : scripts) {
+    const std::string name = script.stem().string();
+    const std::filesystem::path of = script.parent_path();
+    std::ifstream in(script, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    // the PNG is drawn first
+    text.erase(std::min(text.find("unset output\n"), text.size()));
+    const std::regex png("set terminal pngcairo size (\\d+),(\\d+)[^\n]*\nset output [^\n]*\n");
+    std::smatch size;
+    if (!std::regex_search(text, size, png))
+      throw IoError(fmt::format("{}: is no script of a diagram of this program", script.string()));
+    const std::string pdf = fmt::format(
+        "set terminal pdfcairo size {:g}in,{:.3g}in font \"DejaVu Sans,12\" fontscale 0.6 linewidth 0.6 pointscale 0.6\n"
+        "set output {}\n",
+        paper_inches, paper_inches * std::stod(size[2]) / std::stod(size[1]), plot_source(name + ".pdf"));
+    write_plot_file(of / (name + added + ".gnuplot"), size.prefix().str() + pdf + size.suffix().str());
+    if (const std::string trouble = run_gnuplot(gnuplot, of, name + added); !trouble.empty())
+      troubles.push_back(trouble);
+    else
+      remove_drawn(of, name + added);
+  }
+  return troubles;
 }
 
 void remove_drawn(const std::filesystem::path& folder, const std::string& name) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "benchmarks/figures/plot.h"
 
@@ -46,6 +47,13 @@ void write_plot_file(const std::filesystem::path& file, const std::string& text)
 ///
 /// returns what went wrong, in a sentence; empty when all is well
 std::string run_gnuplot(const std::string& gnuplot, const std::filesystem::path& folder, const std::string& name);
+
+/// Draws every diagram whose script and data lie in a folder as `name`.pdf, too: as wide as the text of a page, with
+/// letters of some 7 points.
+///
+/// returns what went wrong, in sentences; empty when all is well
+/// throws  IoError where a script cannot be read or written
+std::vector<std::string> draw_for_paper(const std::filesystem::path& folder, const std::string& gnuplot = "gnuplot");
 
 /// Remove the data and the script of a picture, where these can be had again.
 void remove_drawn(const std::filesystem::path& folder, const std::string& name);

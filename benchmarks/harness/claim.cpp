@@ -76,10 +76,24 @@ Met at_least(const Figure& figure, double bound) {
   return met_by(figure, figure.interval.low >= bound, figure.interval.high >= bound);
 }
 
-void judge(Claim& claim, Met met) {
-  claim.verdict = met == Met::yes ? Verdict::holds : met == Met::no ? Verdict::falls_short : Verdict::undecided;
+void judge(Claim& claim, Met met, std::string cause) {
+  claim.verdict = verdict_of(met);
   if (met == Met::open)
     claim.reason = "the interval lies on both sides of the bound, or has too few values: this run cannot decide";
+  if (met == Met::no && !cause.empty()) claim.reason = std::move(cause);
+}
+
+Claim target(std::string id, std::string text, std::string asked) {
+  return {.id = std::move(id), .text = std::move(text), .paper_value = std::move(asked)};
+}
+
+Claim target(std::string id, std::string text, std::string asked, std::string measured, std::string interval, Met met,
+             std::string cause) {
+  Claim claim = target(std::move(id), std::move(text), std::move(asked));
+  claim.measured = std::move(measured);
+  claim.bound_or_interval = std::move(interval);
+  judge(claim, met, std::move(cause));
+  return claim;
 }
 
 int exit_code(std::span<const Claim> claims) {

@@ -40,11 +40,26 @@ struct Claim {
 /// the interval only: the median of another run may be anywhere in it. An interval of too few values decides nothing.
 /// NaN keeps no bound. A full count (bytes, the runs of a list) has no interval and needs none.
 enum class Met { no, open, yes };
+/// Of what is exact.
+constexpr Met met(bool holds) { return holds ? Met::yes : Met::no; }
+/// The verdict on a target of ours.
+constexpr Verdict verdict_of(Met met) {
+  return met == Met::yes ? Verdict::holds : met == Met::no ? Verdict::falls_short : Verdict::undecided;
+}
 Met at_most(const Figure& figure, double bound);
 Met at_least(const Figure& figure, double bound);
 
 /// The verdict on a target of ours: an open comparison does not fall short, but is undecided, and the reason says so.
-void judge(Claim& claim, Met met);
+/// `cause` is the reason where the target falls short, and may be empty.
+void judge(Claim& claim, Met met, std::string cause = "");
+
+/// A target of ours that is not judged yet; `asked` is its bound as printed.
+Claim target(std::string id, std::string text, std::string asked);
+/// The same, judged.
+Claim target(std::string id, std::string text, std::string asked, std::string measured, std::string interval, Met met,
+             std::string cause = "");
+/// The reason why a target was not tested that asks for a larger body.
+inline constexpr const char* too_quick = "a quick run has no body of this size: leave out --quick";
 
 /// A target of ours on the share of good ones among those drawn; the interval is for the share in the whole population.
 Claim claim_on_share(std::string id, std::string text, std::size_t good, std::size_t all, double asked);

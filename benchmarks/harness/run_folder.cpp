@@ -9,7 +9,6 @@
 
 #include "benchmarks/harness/clock.h"
 #include "benchmarks/harness/json_text.h"
-#include "core/base/escape.h"
 #include "core/plain/error.h"
 
 namespace dartboard {
@@ -73,14 +72,6 @@ void RunFolder::write_claims(std::span<const Claim> claims) const {
   nlohmann::json all = nlohmann::json::array();
   for (const Claim& claim : claims) all.push_back(claim);
   write_json("claims.json", all);
-  write_table("claims", "Claims", table_of(claims));
-}
-
-void RunFolder::write_table(std::string_view name, std::string_view heading, const Table& table,
-                            std::string_view note) const {
-  std::string text = fmt::format("# {}\n\n{}", markdown_text(heading), to_markdown(table));
-  if (!note.empty()) text += fmt::format("\n{}\n", note);
-  write(fmt::format("{}.md", name), text);
 }
 
 JsonLines RunFolder::json_lines(std::string_view name) const { return JsonLines(file(name)); }

@@ -1,5 +1,5 @@
 #pragma once
-// The folder that each run writes: raw samples, manifest, claims and tables.
+// The folder that each run writes: raw samples, manifest and claims.
 
 #include <filesystem>
 #include <fstream>
@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "benchmarks/harness/claim.h"
-#include "benchmarks/harness/table.h"
 #include "core/base/folder_claim.h"
 
 namespace dartboard {
@@ -46,11 +45,8 @@ class RunFolder {
   void write_json(std::string_view name, const nlohmann::json& value) const;
   /// Writes manifest.json; called again at the end of the run, it replaces it.
   void write_manifest(const nlohmann::json& manifest) const;
-  /// Writes claims.json and claims.md.
+  /// Writes claims.json.
   void write_claims(std::span<const Claim> claims) const;
-  /// Writes NAME.md: a heading, the table, and a paragraph if there is a note.
-  void write_table(std::string_view name, std::string_view heading, const Table& table,
-                   std::string_view note = "") const;
   /// Opens NAME for raw results, "samples.jsonl".
   JsonLines json_lines(std::string_view name) const;
 

@@ -20,16 +20,6 @@ std::size_t width(std::string_view text) {
 
 constexpr std::size_t longest_cell = 400;  // letters
 
-std::string markdown_cell(const std::string& cell) {
-  std::string lines;
-  for (std::size_t start = 0; start <= cell.size();) {
-    const std::size_t end = std::min(cell.find('\n', start), cell.size());
-    lines += (start == 0 ? "" : "<br>") + markdown_text(shortened(cell.substr(start, end - start), longest_cell));
-    start = end + 1;
-  }
-  return lines;
-}
-
 std::string text_cell(const std::string& cell) {
   std::string line = cell;
   std::ranges::replace(line, '\n', ' ');
@@ -47,16 +37,16 @@ struct Layout {
   std::vector<std::size_t> widths;
 };
 
-Layout layout(const Table& table, std::string (*rewrite)(const std::string&), std::size_t least_width) {
+Layout layout(const Table& table) {
   Layout result;
   std::vector<std::string> header;
-  for (const Column& column : table.columns()) header.push_back(rewrite(column.title));
+  for (const Column& column : table.columns()) header.push_back(text_cell(column.title));
   result.lines.push_back(std::move(header));
   for (const auto& row : table.rows()) {
     auto& line = result.lines.emplace_back();
-    for (const std::string& cell : row) line.push_back(rewrite(cell));
+    for (const std::string& cell : row) line.push_back(text_cell(cell));
   }
-  result.widths.assign(table.columns().size(), least_width);
+  result.widths.assign(table.columns().size(), 0);
   for (const auto& line : result.lines)
     for (std::size_t c = 0; c < line.size(); ++c) result.widths[c] = std::max(result.widths[c], width(line[c]));
   return result;
@@ -74,26 +64,8 @@ void Table::add_row(std::vector<std::string> cells) {
   rows_.push_back(std::move(cells));
 }
 
-std::string to_markdown(const Table& table) {
-  // a rule needs three characters, with its colon
-  const Layout made = layout(table, markdown_cell, 3);
-  std::string rule = "|";
-  for (std::size_t c = 0; c < made.widths.size(); ++c)
-    rule += table.columns()[c].align == Align::right ? fmt::format(" {:->{}} |", ":", made.widths[c])
-                                                     : fmt::format(" {:-<{}} |", "", made.widths[c]);
-  std::string text;
-  for (const auto& line : made.lines) {
-    text += "|";
-    for (std::size_t c = 0; c < line.size(); ++c)
-      text += fmt::format(" {} |", padded(line[c], made.widths[c], table.columns()[c].align));
-    text += "\n";
-    if (&line == &made.lines.front()) text += rule + "\n";
-  }
-  return text;
-}
-
 std::string to_text(const Table& table) {
-  const Layout made = layout(table, text_cell, 0);
+  const Layout made = layout(table);
   std::string text;
   const auto add_line = [&](std::string line) {
     line.erase(line.find_last_not_of(' ') + 1);

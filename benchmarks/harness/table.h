@@ -1,5 +1,5 @@
 #pragma once
-// A small table of text, for the terminal and for Markdown.
+// A small table of text.
 
 #include <string>
 #include <vector>
@@ -34,12 +34,10 @@ class Table {
 struct NamedTable {
   std::string name{}, heading{};  // "frequencies", "Highest frequencies of meshes, by Lanczos"
   Table table;
-  std::string note{};   // below it
-  std::string study{};  // the study it belongs to, where a report has several: "limits"
+  std::string note{};    // below it
+  std::string study{};   // the study it belongs to, where a report has several: "limits"
+  bool on_page = false;  // alone: too long for a terminal
 };
-
-/// GitHub's Markdown, its source aligned too; a bar within a cell is escaped, a line break becomes <br>.
-std::string to_markdown(const Table& table);
 
 /// Columns two spaces apart, under a ruled header; line breaks within a cell become spaces.
 std::string to_text(const Table& table);

@@ -12,6 +12,7 @@
 
 #include "benchmarks/figures/run_diagrams.h"
 #include "benchmarks/harness/json_number.h"
+#include "core/forces/term_damping.h"
 #include "core/meshes/text/base64.h"
 
 namespace dartboard {
@@ -98,6 +99,19 @@ std::size_t bytes_of(const PlayedShape& shape) {
 /// At most so many arrows show where forces act.
 constexpr std::size_t most_loads = 200;
 
+/// [N] At each vertex: of forces that are shared by mass, of pressures that follow their faces, and of wind.
+std::vector<Vector3d> loads_of(const SimulatedBody& body) {
+  const VertexColumns& vertices = body.vertices();
+  std::vector<Vector3d> loads(vertices.size(), Vector3d::Zero());
+  for (std::size_t k = 0; k < vertices.pull.size(); ++k) loads[k] = vertices.mass[k] * vertices.pull[k];
+  for (const ForceTerm* term : body.system().terms) {
+    if (term->has_energy()) continue;
+    term->add_forces({vertices.position}, loads);
+    if (term->damping() != nullptr) term->damping()->add_forces({vertices.position}, vertices.velocity, loads);
+  }
+  return loads;
+}
+
 }  // namespace
 
 RecordedFrames::RecordedFrames(const Simulation& simulation, std::vector<std::uint64_t> steps, const SceneFile& scene)
@@ -165,13 +179,13 @@ PlayedFrame RecordedFrames::picture_of(const Simulation& simulation) {
     played.values[q] = narrowed<float>(sum);
   }
   played.attachments = frame.attachments;
-  const VertexColumns& vertices = simulation.body().vertices();
+  const std::vector<Vector3d> loads = loads_of(simulation.body());
   std::vector<std::size_t> pulled;
-  for (std::size_t k = 0; k < vertices.pull.size(); ++k)
-    if (!vertices.pull[k].isZero(0.0)) pulled.push_back(k);
+  for (std::size_t k = 0; k < loads.size(); ++k)
+    if (!loads[k].isZero(0.0)) pulled.push_back(k);
   const std::size_t every = 1 + pulled.size() / (most_loads + 1);
   for (std::size_t k = 0; k < pulled.size(); k += every)
-    played.loads.push_back({vertices.position[pulled[k]], vertices.mass[pulled[k]] * vertices.pull[pulled[k]]});
+    played.loads.push_back({simulation.body().vertices().position[pulled[k]], loads[pulled[k]]});
 
   if (shapes_.empty() || shapes_.back() != shape) shapes_.push_back(std::move(shape));
   played.shape = shapes_.size() - 1;

@@ -15,6 +15,7 @@
 #include "benchmarks/report/findings.h"
 #include "benchmarks/report/measured.h"
 #include "benchmarks/report/report_page.h"
+#include "core/base/counted.h"
 #include "core/plain/error.h"
 
 namespace dartboard {
@@ -98,20 +99,20 @@ DerivedComparison compare_derived(const fs::path& folder, const fs::path& derive
   return found;
 }
 
-std::vector<std::string> restore_missing(const fs::path& folder) {
-  std::vector<std::string> restored;
+void restore_missing(const fs::path& folder) {
   std::error_code error;
-  if (fs::exists(folder / findings_name, error) || !fs::exists(folder / packed_measured_name, error)) return restored;
+  if (has_findings(folder) || !fs::exists(folder / packed_measured_name, error)) return;
   const ScratchFolder scratch("derived");
   const fs::path derived = scratch.path() / "run";
   derive_study(folder, derived);
+  std::size_t restored = 0;
   for (const fs::path& file : files_of(derived)) {
     if (fs::exists(folder / file)) continue;
     fs::create_directories((folder / file).parent_path());
     fs::copy_file(derived / file, folder / file);
-    restored.push_back(file.string());
+    ++restored;
   }
-  return restored;
+  tell(stderr, "{}: {} derived again\n", folder.string(), counted(restored, "file", "files"));
 }
 
 }  // namespace dartboard

@@ -20,9 +20,8 @@ struct DerivedComparison {
 };
 DerivedComparison compare_derived(const std::filesystem::path& folder, const std::filesystem::path& derived);
 
-/// Derives the files again that are missing from the folder of a study without findings.
-///
-/// returns  their names
-std::vector<std::string> restore_missing(const std::filesystem::path& folder);
+/// Derives the files again that are missing from the folder of a study without findings, and says so on standard error.
+/// Any other folder is left as it is.
+void restore_missing(const std::filesystem::path& folder);
 
 }  // namespace dartboard

@@ -11,6 +11,7 @@
 
 #include "benchmarks/harness/json_number.h"
 #include "benchmarks/harness/json_text.h"
+#include "benchmarks/report/measured.h"
 #include "core/meshes/text/base64.h"
 #include "core/plain/error.h"
 
@@ -111,6 +112,11 @@ nlohmann::json read_json_file(const fs::path& file) {
   }
 }
 
+bool has_findings(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(folder / findings_name, error);
+}
+
 nlohmann::json begin_findings(const std::string& label) {
   return {{"format", format_name}, {"version", version}, {"label", label}, {"parts", nlohmann::json::array()}};
 }
@@ -132,9 +138,14 @@ nlohmann::json findings_of(const Report& part, const std::string& folder) {
     data["name"] = picture.name;
     diagrams.push_back(std::move(data));
   }
-  return {{"folder", folder},         {"opening", part.opening},         {"tables", std::move(tables)},
-          {"claims", part.claims},    {"diagrams", std::move(diagrams)}, {"disagreements", part.disagreements},
-          {"sentence", part.sentence}};
+  return {{"folder", folder},
+          {"opening", part.opening},
+          {"tables", std::move(tables)},
+          {"claims", part.claims},
+          {"diagrams", std::move(diagrams)},
+          {"disagreements", part.disagreements},
+          {"sentence", part.sentence},
+          {"limits", part.limits}};
 }
 
 nlohmann::json read_run(const fs::path& folder) {
@@ -153,9 +164,12 @@ nlohmann::json read_run(const fs::path& folder) {
                            version));
   std::set<std::string> files;
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error))
-    if (entry.path().extension() == ".jsonl" || entry.path().extension() == ".json")
-      files.insert(fs::relative(entry.path(), folder).string());
+  if (fs::exists(folder / packed_measured_name, error))  // all else follows from it
+    files = {"manifest.json", packed_measured_name};
+  else
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error))
+      if (entry.path().extension() == ".jsonl" || entry.path().extension() == ".json")
+        files.insert(fs::relative(entry.path(), folder).string());
   for (const std::string& one : files) run["files"].push_back(one);
   try {
     for (nlohmann::json& part : findings.at("parts"))

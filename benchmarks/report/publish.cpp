@@ -168,12 +168,16 @@ class Publisher : public StudyLog {
   void show(const Report& report) {
     if (!report.opening.empty()) say(report.opening);
     for (const NamedTable& t : report.tables) {
+      if (t.on_page) continue;
       std::string text = t.heading.empty() ? "" : t.heading + "\n\n";
       text += to_text(t.table);
       if (!t.note.empty()) text += "\n" + t.note + "\n";
       say(text);
     }
     if (!report.claims.empty()) say("Claims\n\n" + to_text(report.claims));
+    std::string limits;
+    for (const std::string& limit : report.limits) limits += "- " + limit + "\n";
+    if (!limits.empty()) say("What this does not show\n\n" + limits);
     for (const std::string& words : report.disagreements) say(words);
     for (const std::string& trouble : report.troubles) tell(stderr, "{}\n", trouble);
   }
@@ -197,9 +201,6 @@ class Publisher : public StudyLog {
 
   void write(const Report& report, const std::string& name) {
     const RunFolder& folder = part(name).folder;
-    for (const NamedTable& t : report.tables)
-      if (!t.name.empty()) folder.write_table(t.name, t.heading, t.table, t.note);
-    for (const auto& [file, text] : report.pages) folder.write(file, text);
     for (const auto& [file, value] : report.data_files) folder.write_json(file, value);
     part("").add(report.claims);
     if (!name.empty()) part(name).add(report.claims);

@@ -22,7 +22,7 @@ struct Publication {
 };
 
 /// Prints text on standard output; with `json` the numbers, claims and manifest there, and the text on standard error.
-/// Writes manifest.json from the start on, claims, tables, pages, pictures, samples.
+/// Writes manifest.json from the start on, findings and their page, claims, pictures, samples.
 ///
 /// returns  the exit status: 0, 1 where something disagrees, or 3 where only a picture could not be drawn; 0 for one that
 ///          is derived again

@@ -23,12 +23,12 @@ struct Picture {
 
 /// The braces allow members to be left out.
 struct Report {
-  bool silent = false;               // written and counted, but not shown
-  std::string opening{};             // a paragraph before the tables
-  std::vector<NamedTable> tables{};  // tables without a name are shown, but not written to a file
+  bool silent = false;    // written and counted, but not shown
+  std::string opening{};  // a paragraph before the tables
+  std::vector<NamedTable> tables{};
   std::vector<Claim> claims{};
+  std::vector<std::string> limits{};  // what the study does not show, in sentences
   std::vector<Picture> pictures{};
-  std::vector<std::pair<std::string, std::string>> pages{};                  // file names and texts
   std::vector<std::pair<std::string, nlohmann::ordered_json>> data_files{};  // file names and values
   nlohmann::ordered_json facts = nlohmann::ordered_json::object();           // on the run, for its manifest
   nlohmann::ordered_json numbers{};          // for programs; null where claims and tables hold them all

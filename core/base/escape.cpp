@@ -62,23 +62,6 @@ bool is_ascii_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <
 /// A digit, an ASCII letter, or a byte of a character beyond ASCII.
 bool is_word(char c) { return is_digit(c) || is_ascii_letter(c) || static_cast<unsigned char>(c) >= 0x80; }
 
-/// Would Markdown act on a character between these two? 0 stands for an unknown character.
-bool markdown_acts(char before, char c, char after) {
-  switch (c) {
-    case '\\':
-    case '`':
-    case '*':
-    case '~':
-    case '|':
-    case '$': return true;
-    case '_': return !is_word(before) || !is_word(after);
-    case '<': return after == 0 || after == '/' || after == '!' || after == '?' || is_ascii_letter(after);
-    case '&': return after == 0 || after == '#' || is_ascii_letter(after);
-    case ']': return after == '(' || after == '[' || after == ':';
-    default: return false;
-  }
-}
-
 }  // namespace
 
 std::string terminal_text(std::string_view text) { return visible(text, false); }
@@ -136,40 +119,6 @@ std::string csv_field(std::string_view text) {
   std::string out = "\"";
   for (const char c : field) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + '"';
-}
-
-std::string markdown_text(std::string_view text) {
-  const std::string line = terminal_text(text);
-  std::string out;
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    const char before = k == 0 ? '\0' : line[k - 1], after = k + 1 == line.size() ? '\0' : line[k + 1];
-    if (markdown_acts(before, line[k], after)) out += '\\';
-    out += line[k];
-  }
-  return out;
-}
-
-std::string markdown_line(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));  // four blanks would begin a block of code
-  std::string out = markdown_text(text);
-  std::size_t mark = 0;
-  while (mark < out.size() && is_digit(out[mark])) ++mark;
-  const bool list = mark > 0 && mark < out.size() && (out[mark] == '.' || out[mark] == ')');
-  if (list || (!out.empty() && std::string_view("#>+-=").find(out[0]) != std::string_view::npos))
-    out.insert(list ? mark : 0, 1, '\\');
-  return out;
-}
-
-std::string markdown_code(std::string_view text) {
-  const std::string line = terminal_text(text);
-  std::size_t longest = 0, run = 0;
-  for (const char c : line) {
-    run = c == '`' ? run + 1 : 0;
-    longest = std::max(longest, run);
-  }
-  const std::string fence(longest + 1, '`');
-  // a blank on both sides is not part of the code
-  return line.empty() ? "" : longest == 0 ? fence + line + fence : fence + ' ' + line + ' ' + fence;
 }
 
 std::string file_name_of(std::string_view name) {

@@ -34,15 +34,6 @@ std::string xml_text(std::string_view text);
 /// spreadsheet would compute.
 std::string csv_field(std::string_view text);
 
-/// Text within a line or a cell of a table of GitHub's Markdown: no link, emphasis, code, formula, tag or bar.
-std::string markdown_text(std::string_view text);
-
-/// Text that begins a line: no heading, quotation, list or rule either.
-std::string markdown_line(std::string_view text);
-
-/// Code within a line of Markdown, its backquotes included.
-std::string markdown_code(std::string_view text);
-
 /// A plain file name made of a name: letters, digits, '.', '-' and '_' stay, all others become '-'. Two names may
 /// become the same.
 std::string file_name_of(std::string_view name);

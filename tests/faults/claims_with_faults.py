@@ -1,24 +1,23 @@
 #!/usr/bin/env python3
-"""Demand that every claim of some claims.json has a fault that is about it.
+"""Demand that every claim on the page of the committed studies has a fault that is about it.
 
-    claims_with_faults.py FAULT_LIST CLAIMS...
+    claims_with_faults.py FAULT_LIST PAGE
 
 A claim without one may be answered by a judge that cannot say no. Standard library only.
 """
 
 import fnmatch
-import json
+import re
 import sys
 
 from make_faulty_tree import Mistake, read_faults
 
 
-def main(fault_list, *files):
+def main(fault_list, page):
     patterns = {pattern for fault in read_faults(fault_list) for pattern in fault.claims}
-    claims = set()
-    for path in files:
-        with open(path, encoding="utf-8") as file:
-            claims |= {claim["id"] for claim in json.load(file)}
+    with open(page, encoding="utf-8") as file:
+        rows = re.findall(r"^<tr data-verdict=.*?^</tr>", file.read(), re.M | re.S)
+    claims = {re.search(r"<code>(.*?)</code>", row)[1] for row in rows}
     bare = sorted(claim for claim in claims if not any(fnmatch.fnmatch(claim, pattern) for pattern in patterns))
     for claim in bare:
         print("%s: no fault of %s is about it: no block has it in a 'claim' line" % (claim, fault_list))

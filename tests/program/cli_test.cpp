@@ -216,7 +216,7 @@ TEST(LongReproduce, TimesALargerBodyInEachWayThatThereIs) {
   const Answer answer = run("reproduce --part larger --quick --json --out " + out.string(), "2>/dev/null");
   EXPECT_EQ(answer.status, 0) << answer.out;
   EXPECT_TRUE(nlohmann::json::parse(answer.out).at("gates_passed").get<bool>());
-  std::ifstream table(out / "larger" / "steps.md");
+  std::ifstream table(out / "findings.json");
   const std::string rows{std::istreambuf_iterator<char>(table), {}};
   EXPECT_NE(rows.find("naive graph"), std::string::npos) << rows;
   EXPECT_NE(rows.find("columns, one at a time"), std::string::npos) << rows;
@@ -242,7 +242,7 @@ TEST(LongReproduce, AnswersEveryClaimOfThePaperAndLeavesWhatTheAnswersRestOn) {
   EXPECT_EQ(answer.status, surprises ? 1 : 0) << answer.out;
   const auto listed = nlohmann::json::parse(run("list claims --json", "").out).at("claims");
   EXPECT_EQ(json.at("claims").size(), listed.size());
-  for (const char* name : {"claims.json", "samples.jsonl", "manifest.json", "timing.md", "counts.md", "agreement.md"})
+  for (const char* name : {"claims.json", "samples.jsonl", "manifest.json", "findings.json"})
     EXPECT_TRUE(fs::exists(out / name)) << name;
   fs::remove_all(out);
 }
@@ -299,7 +299,7 @@ TEST(Extremes, LeavesClaimsTablesAndAPictureOfAStudy) {
   const auto claims = nlohmann::json::parse(file);
   ASSERT_EQ(claims.size(), 1u);
   EXPECT_EQ(claims[0].at("id"), "amplification");
-  for (const char* name : {"amplification.md", "amplification.png", "amplification.svg", "manifest.json"})
+  for (const char* name : {"findings.json", "amplification.png", "amplification.svg", "manifest.json"})
     EXPECT_TRUE(fs::exists(out / name)) << name;
   fs::remove_all(out);
 }

@@ -32,17 +32,17 @@ TEST_F(Derived, FollowAllFromWhatWasMeasured) {
   EXPECT_NE(sound.out.find("follow from what was measured"), std::string::npos) << sound.out;
 }
 
-TEST_F(Derived, DifferFromATableThatWasChangedByHand) {
-  std::string table = text("study/views.md");
+TEST_F(Derived, DifferFromASampleThatWasChangedByHand) {
+  std::string table = text("study/samples.jsonl");
   const std::size_t digit = table.find_last_of("123456789");
   ASSERT_NE(digit, std::string::npos);
   table[digit] = table[digit] == '9' ? '8' : '9';
-  std::ofstream(folder_ / "study" / "views.md") << table;
-  fs::remove(folder_ / "study" / "claims.md");
+  std::ofstream(folder_ / "study" / "samples.jsonl") << table;
+  fs::remove(folder_ / "study" / "claims.json");
   const Answer changed = check();
   EXPECT_EQ(changed.status, 1) << changed.out;
-  EXPECT_NE(changed.out.find("/study/views.md:"), std::string::npos) << changed.out;
-  EXPECT_NE(changed.out.find("/study/claims.md: is missing"), std::string::npos) << changed.out;
+  EXPECT_NE(changed.out.find("/study/samples.jsonl:"), std::string::npos) << changed.out;
+  EXPECT_NE(changed.out.find("/study/claims.json: is missing"), std::string::npos) << changed.out;
   EXPECT_EQ(changed.out.find("follow from"), std::string::npos) << changed.out;
 }
 
@@ -55,6 +55,10 @@ TEST_F(Derived, AreMadeAgainWithTheSamePageWhereOnlyWhatWasMeasuredIsLeft) {
     fs::remove(entry.path());
   }
   ASSERT_TRUE(before.contains("report.html"));
+  const Answer raw = check();
+  EXPECT_EQ(raw.status, 0) << raw.out;
+  EXPECT_NE(raw.out.find("can be derived; none of them is there"), std::string::npos) << raw.out;
+  EXPECT_FALSE(fs::exists(folder_ / "study" / "findings.json"));
   const Answer again = run("report '" + study() + "'", "2>&1");
   EXPECT_EQ(again.status, 0) << again.out;
   for (const auto& [name, bytes] : before) EXPECT_TRUE(text("study/" + name) == bytes) << name;

@@ -136,7 +136,7 @@ TEST_F(Endings, APictureOfAStudyThatCannotBeDrawnIsAnIoErrorToo) {
                         (folder_ / "no programs").string())),
             3);
   EXPECT_NE(text("errors.txt").find("no picture of amplification"), std::string::npos) << text("errors.txt");
-  EXPECT_TRUE(fs::exists(folder_ / "out" / "amplification.md"));
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "amplification.dat"));
 }
 
 TEST_F(Endings, OfAPictureAndAVerdictTheVerdictCounts) {
@@ -183,7 +183,7 @@ n=0
     const std::string id = claim.at("id");
     EXPECT_EQ(claim.at("verdict"), id.starts_with("elements-calculix") ? "falls short" : "holds") << id;
   }
-  EXPECT_NE(text("out/calculix.md").find("tetrahedra (C3D4)"), std::string::npos);
+  EXPECT_NE(text("out/findings.json").find("tetrahedra (C3D4)"), std::string::npos);
   EXPECT_EQ(nlohmann::json::parse(text("out/manifest.json")).at("calculix"), "0.1");
   EXPECT_TRUE(fs::is_empty(folder_ / "scratch"));
 }
@@ -236,9 +236,10 @@ TEST_F(Endings, WithoutAFolderResultsAreLeftWhereOneStands) {
   const fs::path run = fs::directory_iterator(results)->path();
   EXPECT_TRUE(run.filename().string().starts_with("solvers-")) << run;
   EXPECT_TRUE(fs::exists(run / "manifest.json"));
-  for (const char* made : {"accuracy.md", "indefinite.md"}) EXPECT_TRUE(fs::exists(run / made)) << made;
-  for (const char* other : {"edits.md", "updates.md", "crossover.md", "steps.md"})
-    EXPECT_FALSE(fs::exists(run / other)) << other;
+  std::vector<std::string> tables;
+  const auto findings = nlohmann::json::parse(contents(run / "findings.json"));
+  for (const auto& table : findings.at("parts").at(0).at("tables")) tables.push_back(table.at("name"));
+  EXPECT_EQ(tables, (std::vector<std::string>{"accuracy", "indefinite"}));
   EXPECT_NE(text("printed.txt").find("Written to dartboard-results/solvers-"), std::string::npos);
 }
 

@@ -1,7 +1,9 @@
-"""Committed samples, and figures derived from them again by other code than that which measured: order statistics, paired
+"""What committed studies have measured, and figures derived from them again by other code than that which measured: order statistics, paired
 ratios and their intervals over processes, as benchmarks/harness/paired.h and statistics.h define them. Standard library only."""
 
 import collections
+import functools
+import gzip
 import json
 import math
 import os
@@ -16,29 +18,25 @@ used = set()  # files that were read
 
 def read(path):
     used.add(path)
-    return content(path, str)
+    with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+        return file.read()
 
 
-def lines(path):
-    """One sample each."""
+def measured(path, verb):
+    """The samples that processes of that verb have printed."""
+    return [sample for sample in outputs(path) if sample["verb"] == verb]
+
+
+@functools.lru_cache(maxsize=None)
+def outputs_of(path):
+    with gzip.open(os.path.join(ROOT, path), "rt", encoding="utf-8") as file:
+        processes = [json.loads(line) for line in file]
+    return [dict(json.loads(line), verb=one["arguments"][0]) for one in processes[1:] for line in one["lines"] if line.startswith("{")]
+
+
+def outputs(path):
     used.add(path)
-    return content(path, lambda text: [json.loads(line) for line in text.splitlines()])
-
-
-def document(path):
-    used.add(path)
-    return content(path, json.loads)
-
-
-kept = {}  # parsed files
-
-
-def content(path, parse):
-    key = path, getattr(parse, "__code__", parse)
-    if key not in kept:
-        with open(os.path.join(ROOT, path), encoding="utf-8") as file:
-            kept[key] = parse(file.read())
-    return kept[key]
+    return outputs_of(path)
 
 
 def median(values):
@@ -62,18 +60,6 @@ def interval(values, confidence=0.95):
 
 def figure(values):
     return Figure(median(values), *interval(values))
-
-
-def share_at_least(good, drawn):
-    """The lower end of the interval of Clopper and Pearson at 95 %, by halving."""
-    if good == 0:
-        return 0.0
-    tail = lambda p: sum(math.comb(drawn, k) * p ** k * (1 - p) ** (drawn - k) for k in range(good, drawn + 1))
-    low, high = 0.0, 1.0
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (middle, high) if tail(middle) < 0.025 else (low, middle)
-    return low
 
 
 def by_process(rows):

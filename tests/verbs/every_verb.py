@@ -76,7 +76,7 @@ RUNS = {
 REPORT = re.compile(r"AddressSanitizer|LeakSanitizer|UndefinedBehaviorSanitizer|runtime error:")
 NO_NUMBER = re.compile(r"(?<![\w-])-?(nan|inf)(?![\w-])")  # as numbers are printed; in sentences it is "NaN"
 # pages have libraries in them; their data are those of findings.json
-TEXTS = (".csv", ".json", ".jsonl", ".md", ".txt", ".vtu", ".pvd", ".svg")
+TEXTS = (".csv", ".json", ".jsonl", ".txt", ".vtu", ".pvd", ".svg")
 
 
 def verbs_of(program, above=()):

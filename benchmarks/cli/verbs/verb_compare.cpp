@@ -3,6 +3,7 @@
 
 #include "benchmarks/cli/studies/study_options.h"
 #include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/report/derived.h"
 #include "benchmarks/studies/compare/compare_runs.h"
 
 namespace dartboard {
@@ -23,6 +24,7 @@ void add_compare(CLI::App& app, Outcome& outcome) {
   verb->add_option("--within", options->within, "edge lengths that vertices of two scenes may be apart [0]")
       ->check(CLI::NonNegativeNumber);
   verb->callback([options, &outcome] {
+    for (const std::string& folder : {options->first, options->second}) restore_missing(folder);
     run_study(
         *options, {.label = "compare", .keeps_folder = false},
         [&](StudyLog&) {

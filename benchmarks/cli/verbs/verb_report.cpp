@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "benchmarks/cli/verbs/verbs.h"
+#include "benchmarks/figures/gnuplot.h"
 #include "benchmarks/harness/json_text.h"
 #include "benchmarks/harness/scratch_folder.h"
 #include "benchmarks/harness/tell.h"
@@ -23,6 +26,7 @@ namespace {
 struct ReportOptions {
   std::vector<std::string> folders;
   std::string out;
+  std::string style = "screen";
   bool replace = false, json = false, check = false;
 };
 
@@ -30,16 +34,20 @@ struct ReportOptions {
 void check(const ReportOptions& options, Outcome& outcome) {
   nlohmann::json all = nlohmann::json::array();
   for (const std::string& folder : options.folders) {
-    read_run(folder);  // refuses another format or version in words
+    const bool is_raw = !has_findings(folder);
+    if (!is_raw) read_run(folder);  // refuses another format or version in words
     tell(stderr, "{}: deriving its files again\n", folder);
     const ScratchFolder scratch("derived");
     derive_study(folder, scratch.path() / "run");
-    const DerivedComparison found = compare_derived(folder, scratch.path() / "run");
+    DerivedComparison found;
+    if (!is_raw) found = compare_derived(folder, scratch.path() / "run");
     if (!found.differences.empty()) outcome.exit_code = exit_disagrees;
     all.push_back({{"folder", folder}, {"same", found.same}, {"differences", found.differences}});
     if (options.json) continue;
     for (const std::string& words : found.differences) tell("{}\n", words);
-    if (found.differences.empty())
+    if (is_raw)
+      tell("{}: its tables, claims and samples can be derived; none of them is there to be compared.\n", folder);
+    else if (found.differences.empty())
       tell("{}: {} with its tables, claims and samples follow from what was measured.\n", folder,
            counted(found.same.size(), "file", "files"));
   }
@@ -48,9 +56,7 @@ void check(const ReportOptions& options, Outcome& outcome) {
 
 void report(const ReportOptions& options, Outcome& outcome) {
   const std::vector<std::filesystem::path> folders(options.folders.begin(), options.folders.end());
-  for (const auto& folder : folders)
-    if (const auto restored = restore_missing(folder); !restored.empty())
-      tell(stderr, "{}: {} derived again\n", folder.string(), counted(restored.size(), "file", "files"));
+  for (const auto& folder : folders) restore_missing(folder);
   if (options.json) {
     nlohmann::json runs = nlohmann::json::array();
     for (const auto& folder : folders) runs.push_back(read_run(folder));
@@ -61,10 +67,15 @@ void report(const ReportOptions& options, Outcome& outcome) {
       options.out.empty() ? folders[0] / report_name : std::filesystem::path(options.out);
   // that of a folder is made from the rest of it, and can be made again
   require_writable_page(file, "report", options.replace || options.out.empty(), "");
-  const std::string trouble = write_report(folders, file);
-  if (trouble.empty()) return tell("{} shows {}.\n", file.string(), fmt::join(options.folders, ", "));
-  tell(stderr, "{}\n", trouble);
-  outcome.exit_code = exit_io;
+  std::vector<std::string> troubles;
+  if (options.style == "paper")
+    for (const auto& folder : folders) std::ranges::move(draw_for_paper(folder), std::back_inserter(troubles));
+  if (const std::string trouble = write_report(folders, file); !trouble.empty())
+    troubles.push_back(trouble);
+  else
+    tell("{} shows {}.\n", file.string(), fmt::join(options.folders, ", "));
+  for (const std::string& trouble : troubles) tell(stderr, "{}\n", trouble);
+  if (!troubles.empty()) outcome.exit_code = exit_io;
 }
 
 }  // namespace
@@ -80,6 +91,8 @@ void add_report(CLI::App& app, Outcome& outcome) {
       verb->add_option("--out", options->out, "the page, a new file [report.html in DIR, where there is one DIR]")
           ->type_name("FILE.html");
   verb->add_flag("--replace", options->replace, "write it over an earlier page")->needs(out);
+  verb->add_option("--style", options->style, "screen, or paper: each diagram in the folders as a PDF, too [screen]")
+      ->check(CLI::IsMember({"screen", "paper"}));
   verb->add_flag("--json", options->json, "print the findings and manifests as JSON, and make no page");
   verb->add_flag("--check", options->check,
                  "derive every table, claim and sample again from measured.jsonl.gz, and compare; makes no page")

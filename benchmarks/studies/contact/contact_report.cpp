@@ -48,12 +48,8 @@ constexpr double most_rounding = 1e-14;
 constexpr double most_of_steps = 0.05;
 
 Claim claim(std::string id, std::string text, double bound, double worst, const std::string& unit) {
-  Claim made{.id = std::move(id),
-             .text = std::move(text),
-             .paper_value = fmt::format("<= {:g}{}", bound, unit),
-             .measured = fmt::format("{:.2g}{}", worst, unit)};
-  made.verdict = worst <= bound ? Verdict::holds : Verdict::falls_short;
-  return made;
+  return target(std::move(id), std::move(text), fmt::format("<= {:g}{}", bound, unit),
+                fmt::format("{:.2g}{}", worst, unit), "", met(worst <= bound));
 }
 
 double stiffness_of(const BounceFound& found) {

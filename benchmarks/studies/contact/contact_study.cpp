@@ -224,7 +224,13 @@ Report contact_study(const ContactStudyPlan& plan, StudyLog& log) {
                   "Scenes drawn at random: what leaves, slides over seams, or drops on plates of all thicknesses",
                   drawn_table(results.drawn)},
                  {"operations", "Cut, torn and eroded at random in a pressed stack", operations_table(found)}},
-      .claims = claims_of(results)};
+      .claims = claims_of(results),
+      .limits = {
+          "A body that is less than ten times as stiff as its contact vibrates after a bounce and is left more than the "
+          "restitution asked for; a run warns of that. A restitution below a fifth needs shorter steps. Explicit Euler "
+          "does not get through a bounce of a stiff body.",
+          "Soft bodies turn the normals along which they are pushed, so that one body draws on another one as it leaves.",
+          "What is too fast for the thickness of a plate comes through it; a run warns of that before."}};
   if (by_ipctk) {
     std::ranges::copy(claims_of(*by_ipctk), std::back_inserter(report.claims));
     report.tables.push_back(

@@ -38,7 +38,7 @@ Claim claim_on_depths(const IpctkResults& results) {
       .paper_value = fmt::format("<= {:.1e} of the size", most_apart),
       .measured = fmt::format("{:.1e}", apart),
       .bound_or_interval = fmt::format("{} nearer to it than the width of a cell", counted(shallow, "contact"))};
-  claim.verdict = shallow > 0 && apart <= most_apart ? Verdict::holds : Verdict::falls_short;
+  judge(claim, met(shallow > 0 && apart <= most_apart));
   return claim;
 }
 
@@ -60,8 +60,7 @@ Claim claim_on_crossings(const IpctkResults& results) {
       .measured = fmt::format("{:.2g} altitudes", quiet),
       .bound_or_interval = fmt::format("in {} of {} placements they cross", crossing, placements)};
   const bool both = crossing > 0 && crossing < placements;
-  claim.verdict =
-      both && false_felt == 0 && disputed == 0 && quiet <= most_unfelt ? Verdict::holds : Verdict::falls_short;
+  judge(claim, met(both && false_felt == 0 && disputed == 0 && quiet <= most_unfelt));
   if (!both) claim.reason = "surfaces cross everywhere or nowhere";
   if (false_felt > 0) claim.reason = fmt::format("{} felt where no surfaces cross", counted(false_felt, "placement"));
   if (disputed > 0) claim.reason = fmt::format("ipctk and CGAL disagree on {}", counted(disputed, "placement"));
@@ -78,7 +77,7 @@ Claim claim_on_steps(const IpctkShotsFound& shots) {
               .bound_or_interval = fmt::format("of {}, {} of them slow; {} fast ones pass unfelt",
                                                counted(shots.shots, "shot"), shots.slow, shots.passes)};
   const bool hit = shots.hits > 0 && shots.hits == shots.slow, passed = shots.passes > 0;
-  claim.verdict = hit && passed && shots.wrong() == 0 ? Verdict::holds : Verdict::falls_short;
+  judge(claim, met(hit && passed && shots.wrong() == 0));
   if (!hit) claim.reason = fmt::format("by ipctk, {} of {} slow shots collide", shots.hits, shots.slow);
   if (!passed) claim.reason = "no shot passes unfelt, so that no warning is needed";
   return claim;

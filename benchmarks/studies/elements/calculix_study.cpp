@@ -37,7 +37,7 @@ Claim claim_on(std::span<const CalculixAnswer> answers, bool large) {
                             : "under small loads linear and quadratic elements bend as those of CalculiX",
               .paper_value = fmt::format("<= {:.0e}", bound),
               .measured = fmt::format("{:.1e}", worst)};
-  claim.verdict = count > 0 && worst <= bound ? Verdict::holds : Verdict::falls_short;
+  judge(claim, met(count > 0 && worst <= bound));
   if (large && !(least >= least_bend)) {
     claim.verdict = Verdict::falls_short;
     claim.reason = fmt::format("a beam of 1 m is bent by {:.2f} m only", least);

@@ -38,7 +38,7 @@ Claim claim_on(std::span<const NewtonRun> runs) {
     }
     fewer = fewer && has_warped;
   }
-  claim.verdict = fewer && !claim.measured.empty() ? Verdict::holds : Verdict::falls_short;
+  judge(claim, met(fewer && !claim.measured.empty()));
   return claim;
 }
 

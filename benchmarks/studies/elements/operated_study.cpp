@@ -21,12 +21,8 @@ Claim claim_on(std::string id, std::string text, double bound, const std::vector
   double worst = bodies.empty() ? NAN : 0.0;
   for (const OperatedBody& body : bodies)
     for (const auto member : members) worst = max_or_nan(worst, body.found.*member);
-  Claim claim{.id = std::move(id),
-              .text = std::move(text),
-              .paper_value = fmt::format("<= {:.0e}", bound),
-              .measured = fmt::format("{:.1e}", worst)};
-  claim.verdict = worst <= bound ? Verdict::holds : Verdict::falls_short;
-  return claim;
+  return target(std::move(id), std::move(text), fmt::format("<= {:.0e}", bound), fmt::format("{:.1e}", worst), "",
+                met(worst <= bound));
 }
 
 }  // namespace
@@ -35,18 +31,14 @@ std::vector<Claim> claims_of(const std::vector<OperatedBody>& bodies) {
   using E = ElementOperations;
   std::size_t strangers = 0;
   for (const OperatedBody& body : bodies) strangers += body.found.strangers;
-  Claim own{.id = "elements-materials",
-            .text = "each remaining cell has the corners and the material of its cell of the mesh",
-            .paper_value = "0 have not",
-            .measured = fmt::format("{}", strangers)};
-  own.verdict = !bodies.empty() && strangers == 0 ? Verdict::holds : Verdict::falls_short;
   return {claim_on("elements-dissociation", "what separates cells alone changes no energy", most_jump, bodies,
                    {&E::dissociation}),
           claim_on("elements-removal", "a removal takes the energy of the cell, as other code has it", most_difference,
                    bodies, {&E::removal}),
           claim_on("elements-rebuilt", "energies, forces and masses are those of a body that is built anew",
                    most_difference, bodies, {&E::energy, &E::force, &E::mass}),
-          own};
+          target("elements-materials", "each remaining cell has the corners and the material of its cell of the mesh",
+                 "0 have not", fmt::format("{}", strangers), "", met(!bodies.empty() && strangers == 0))};
 }
 
 Table operations_table(const std::vector<OperatedBody>& bodies) {

@@ -15,14 +15,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Claim claim(std::string id, std::string text, std::string target, std::string measured, bool holds,
+Claim claim(std::string id, std::string text, std::string asked, std::string measured, bool holds,
             std::string rests_on) {
-  return {.id = std::move(id),
-          .text = std::move(text),
-          .paper_value = std::move(target),
-          .measured = std::move(measured),
-          .bound_or_interval = std::move(rests_on),
-          .verdict = holds ? Verdict::holds : Verdict::falls_short};
+  return target(std::move(id), std::move(text), std::move(asked), std::move(measured), std::move(rests_on), met(holds));
 }
 
 /// The worst case of the axis of offsets, for methods that solve equations and for those that do not: the former stop

@@ -204,7 +204,14 @@ Report scene_extremes_study(const ExtremesPlan& plan, StudyLog& log) {
     all.cells.insert(all.cells.end(), scene.cells.begin(), scene.cells.end());
     found.push_back(std::move(scene));
   }
-  Report report{.opening = opening_of(all), .tables = tables_of(found), .claims = claims_of(found)};
+  Report report{
+      .opening = opening_of(all),
+      .tables = tables_of(found),
+      .claims = claims_of(found),
+      .limits = {
+          "Runs are judged by no more than that they survive where no witness supports their scene: contact, springs "
+          "that are no edges, membranes, elements that are refined, axes that are held, and, for schemes with dense "
+          "factors, more than 200 vertices."}};
   report.numbers = {{"claims", nlohmann::json(report.claims)}, {"runs", all.cells}};
   return report;
 }
@@ -225,10 +232,18 @@ Report extremes_study(const ExtremesPlan& plan, StudyLog& log) {
       std::ranges::none_of(extreme_axes(), is_asked_for))
     throw InputError(fmt::format("there is no axis '{}'; there are {}", plan.axis, known_extremes()));
   const ExtremesResults results = measure(plan, log);
-  Report report{.opening = opening_of(results),
-                .claims = claims_of(results),
-                .pictures = pictures_of(results),
-                .numbers = to_json(results)};
+  Report report{
+      .opening = opening_of(results),
+      .claims = claims_of(results),
+      .limits = {"The steps of bodies whose viscosity is not in proportion to their mass are not judged by their "
+                 "scheme.",
+                 "Reported stable steps are far below the true limit for symplectic Euler with strong damping, "
+                 "whose dampers are swept in one direction, and, where dampers are not proportional to springs, for "
+                 "explicit Euler, Dormand-Prince and Blanes-Moan.",
+                 "Close to the limit of stability it takes long until a run has gathered the energy by which it "
+                 "is stopped."},
+      .pictures = pictures_of(results),
+      .numbers = to_json(results)};
   Json rest = report.numbers;
   rest.erase("matrix");  // it is in extremes.jsonl
   report.data_files = {{"measurements.json", std::move(rest)}};

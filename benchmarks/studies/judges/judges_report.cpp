@@ -147,7 +147,7 @@ std::vector<Claim> claims_of(const JudgesResults& results) {
     if (sum.asked() == 0)
       claim.reason = "being wrong changed nothing in any of the cases";
     else
-      claim.verdict = sees ? Verdict::holds : Verdict::falls_short;
+      claim.verdict = verdict_of(met(sees));
     claims.push_back(std::move(claim));
   }
   if (results.slack.empty()) return claims;
@@ -165,7 +165,7 @@ std::vector<Claim> claims_of(const JudgesResults& results) {
               .paper_value = fmt::format("<= 1; <= {:g}", most_slack),
               .measured = fmt::format("{:.2g}; {:.3g}", worst, most),
               .bound_or_interval = fmt::format("loosest: {}", loosest)};
-  claim.verdict = tight ? Verdict::holds : Verdict::falls_short;
+  judge(claim, met(tight));
   claims.push_back(std::move(claim));
   return claims;
 }

@@ -86,6 +86,8 @@ Report judges_study(const JudgesPlan& plan, StudyLog& log) {
                              "Not seen: the difference is below what rounding, or the tolerance of a solver, "
                              "explains",
                              std::move(unseen)});
+  report.limits = {
+      "A wrong integrator is not seen where its fault is below rounding, or below what a solver promises."};
   report.numbers = to_json(results);
   report.data_files = {{"judges.json", report.numbers}};
   return report;

@@ -36,10 +36,6 @@ bool is_cut_rightly(const LargeCounts& c) {
   return c.operations == 2 * c.side * c.side && c.components == 2 && c.keeps_mass && c.violation.empty();
 }
 
-Claim target(std::string id, std::string text, std::string asked) {
-  return {.id = std::move(id), .text = std::move(text), .paper_value = std::move(asked)};
-}
-
 Claim claim_on_cuts(const LargeFigures& f) {
   Claim made = target("large-cut",
                       "a planar cut in mid-run separates a box into two, along as many faces as the plane has, on a "
@@ -50,7 +46,7 @@ Claim claim_on_cuts(const LargeFigures& f) {
   std::size_t most = 0;
   for (const LargeCounts& c : f.counts) most = std::max(most, tetrahedra_of(c.side));
   made.bound_or_interval = fmt::format("of {} runs of up to {} tetrahedra", f.counts.size(), most);
-  judge(made, wrong == 0 && !f.counts.empty() ? Met::yes : Met::no);
+  judge(made, met(wrong == 0 && !f.counts.empty()));
   return made;
 }
 
@@ -62,21 +58,22 @@ Claim claim_on_bytes(const LargeFigures& f, const char* id, const char* text, st
     largest = std::max(largest, of_tetrahedron(static_cast<double>(c.*bytes), c.side));
   made.measured = fmt::format("{:.0f}", largest);
   made.bound_or_interval = "exact, the largest of all bodies";
-  judge(made, largest <= most && !f.counts.empty() ? Met::yes : Met::no);
+  judge(made, met(largest <= most && !f.counts.empty()));
   return made;
 }
 
-Claim claim_on_time(const LargeFigures& f, const char* id, const char* text, const char* part, double most) {
+Claim claim_on_time(const LargeFigures& f, const char* id, const char* text, const char* part, double most,
+                    const char* cause) {
   Claim made = target(id, fmt::format("{}, of {} tetrahedra", text, tetrahedra_of(started_side)),
                       fmt::format("<= {:g} s", most));
   if (!f.has(started_side, part)) {
-    made.reason = "a quick run has no body of this size: leave out --quick";
+    made.reason = too_quick;
     return made;
   }
   const Figure seconds = f.seconds(started_side, part);
   made.measured = fmt::format("{:.2f} s", seconds.median);
   made.bound_or_interval = to_string(seconds.interval);
-  judge(made, at_most(seconds, most));
+  judge(made, at_most(seconds, most), cause);
   return made;
 }
 
@@ -108,8 +105,10 @@ std::vector<Claim> claims_of(const LargeFigures& f) {
       claim_on_bytes(f, "large-bytes-without-events", "the same without events", &LargeCounts::bytes_without_events,
                      most_bytes_without_events),
       claim_on_time(f, "large-first-step", "from the start of a run to its first step", first_step,
-                    most_until_first_step),
-      claim_on_time(f, "large-info", "mesh info of a frame", info, most_for_info)};
+                    most_until_first_step,
+                    "darts, cells and points lead from one to the other, and each of these reads waits for memory"),
+      claim_on_time(f, "large-info", "mesh info of a frame", info, most_for_info,
+                    "it checks all of the file, and builds a map of it")};
 }
 
 Table parts_table(const LargeFigures& f) {

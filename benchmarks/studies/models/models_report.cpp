@@ -87,7 +87,7 @@ std::vector<Claim> claims_of(const ModelsResults& results) {
   for (const BarTruth& t : results.truths)
     for (const Asked asked : {Asked::tip, Asked::frequencies}) unsure = max_or_nan(unsure, error_of(t.unsure, asked));
   reference.measured = percent(unsure);
-  reference.verdict = unsure <= results.sure ? Verdict::holds : Verdict::falls_short;
+  judge(reference, met(unsure <= results.sure));
 
   Claim steps{.id = "models-steps",
               .text = "errors by time steps are a tenth of each model's own, or of the resolution of the reference",
@@ -96,7 +96,7 @@ std::vector<Claim> claims_of(const ModelsResults& results) {
   for (const ModelPoint& p : results.points)
     if (!p.measured.method.integrator.empty() && p.measured.method.error <= p.measured.allowed) ++small;
   steps.measured = fmt::format("{} of {}", small, results.points.size());
-  steps.verdict = small == results.points.size() && small > 0 ? Verdict::holds : Verdict::falls_short;
+  judge(steps, met(small == results.points.size() && small > 0));
 
   double first = NAN, last = NAN;  // the smallest and the largest of the ratios
   for (const BarTruth& t : results.truths) {
@@ -119,7 +119,7 @@ std::vector<Claim> claims_of(const ModelsResults& results) {
     if (p.timed.poisson == last && belongs(p, "springs"))
       least = std::isnan(least) ? p.measured.errors.confined : std::min(least, p.measured.errors.confined);
   confined.measured = std::isnan(least) ? "no springs" : percent(least);
-  confined.verdict = least >= off_the_chart ? Verdict::holds : Verdict::falls_short;
+  judge(confined, met(least >= off_the_chart));
   return {reference, steps, springs, hexahedra, confined};
 }
 

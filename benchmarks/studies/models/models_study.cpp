@@ -147,6 +147,9 @@ Report models_study(const ModelsPlan& plan, StudyLog& log) {
        "after the load is let go of. They have no sign: where springs pass the truth from too stiff to too soft their error is small on one mesh and not on the next."},
       {"cheapest", "Which model is the cheapest for which error", reigns_table(results)}};
   report.claims = claims_of(results);
+  report.limits = {
+      "On jittered meshes springs pass from too stiff to too soft, and near the crossing any error is small. What they miss "
+      "on every mesh is the stiffness of a slab that cannot expand sideways."};
   report.pictures = {{"models", models_panels(results)}};
   report.numbers = json_of(results);
   report.data_files = {{"models.json", report.numbers}};

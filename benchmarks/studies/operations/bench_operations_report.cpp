@@ -24,19 +24,9 @@ Values ratios(const Values& a, const Values& b) {
 
 std::string show(const Values& values) { return values.empty() ? "-" : fmt::format("{:.3g}", median(values)); }
 
-Claim claim(std::string id, std::string text, std::string target, std::string measured, std::string interval, Met met) {
-  Claim made{.id = std::move(id),
-             .text = std::move(text),
-             .paper_value = std::move(target),
-             .measured = std::move(measured),
-             .bound_or_interval = std::move(interval)};
-  judge(made, met);
-  return made;
-}
-
 /// An operation must keep to a bound on every body; the 99th percentiles are reported.
 Claim bounded(const OperationFigures& r, const std::vector<std::string>& bodies, const std::string& id,
-              const std::vector<std::string>& names, double bound_us) {
+              const std::vector<std::string>& names, double bound_us, const char* cause) {
   std::string measured, tails;
   Met met = Met::yes;
   for (const std::string& operation : names)
@@ -47,8 +37,8 @@ Claim bounded(const OperationFigures& r, const std::vector<std::string>& bodies,
       tails += (tails.empty() ? "99th percentile " : " / ") + show(r.quantiles(body, operation, 0.99));
       met = std::min(met, at_most(figure_of(middle), bound_us));
     }
-  Claim c = claim("operation-" + id, fmt::format("{}, with embeddings and four views", fmt::join(names, " / ")),
-                  fmt::format("<= {:g} us", bound_us), measured + " us", tails, met);
+  Claim c = target("operation-" + id, fmt::format("{}, with embeddings and four views", fmt::join(names, " / ")),
+                   fmt::format("<= {:g} us", bound_us), measured + " us", tails, met, cause);
   if (measured.empty()) {
     c.verdict = Verdict::not_tested;
     c.measured.clear();
@@ -125,17 +115,21 @@ std::string operations_note() {
 
 std::vector<Claim> claims_of(const OperationFigures& r, const std::vector<std::string>& bodies) {
   std::vector<Claim> claims;
-  claims.push_back(bounded(r, bodies, "dissociate", {"dissociate, cut", "dissociate, random"}, 5.0));
-  claims.push_back(bounded(r, bodies, "remove", {"remove"}, 10.0));
-  claims.push_back(bounded(r, bodies, "tear-fan", {"tear fan"}, 20.0));
+  const char* far_away = "in large bodies every cell that is touched lies outside the caches";
+  const char* shares_anew =
+      "in large bodies every cell that is touched lies outside the caches; a removal walks around its four vertices and "
+      "sums the shares of all cells there anew, so that no bit depends on the order of operations";
+  claims.push_back(bounded(r, bodies, "dissociate", {"dissociate, cut", "dissociate, random"}, 5.0, far_away));
+  claims.push_back(bounded(r, bodies, "remove", {"remove"}, 10.0, shares_anew));
+  claims.push_back(bounded(r, bodies, "tear-fan", {"tear fan"}, 20.0, far_away));
   for (const auto& [operation, bound] : {std::pair("dissociate, cut", 1.5), std::pair("dissociate, random", 2.5)}) {
     const Values ratio = ratios(r.quantiles("kuhn-998250", operation, 0.5), r.quantiles("kuhn-2058", operation, 0.5));
     if (ratio.empty()) continue;
     const Figure f = figure_of(ratio);
     claims.push_back(
-        claim(fmt::format("operation-{}-scaling", operation == std::string("dissociate, cut") ? "cut" : "random"),
-              fmt::format("{}: 998,250 tetrahedra over 2,058", operation), fmt::format("<= {:g}", bound),
-              fmt::format("{:.3g}", f.median), to_string(f.interval), at_most(f, bound)));
+        target(fmt::format("operation-{}-scaling", operation == std::string("dissociate, cut") ? "cut" : "random"),
+               fmt::format("{}: 998,250 tetrahedra over 2,058", operation), fmt::format("<= {:g}", bound),
+               fmt::format("{:.3g}", f.median), to_string(f.interval), at_most(f, bound), far_away));
   }
   for (const std::string body : {"liver564", "kuhn-105456"}) {
     Values ratio;
@@ -144,9 +138,9 @@ std::vector<Claim> claims_of(const OperationFigures& r, const std::vector<std::s
         ratio.push_back(milliseconds(s.eventful_step_ns) / milliseconds(s.step_ns));
     if (ratio.empty()) continue;
     const Figure f = figure_of(ratio);
-    claims.push_back(claim("operation-step-" + body,
-                           "a step with a dissociation and all views over one without, " + body, "<= 2",
-                           fmt::format("{:.3g}", f.median), to_string(f.interval), at_most(f, 2.0)));
+    claims.push_back(target("operation-step-" + body,
+                            "a step with a dissociation and all views over one without, " + body, "<= 2",
+                            fmt::format("{:.3g}", f.median), to_string(f.interval), at_most(f, 2.0)));
   }
   // the paper's claim, by the cost of one operation
   Values rebuild;

@@ -29,8 +29,6 @@ double largest_jump(const OrderResults& results) {
   return largest;
 }
 
-Verdict verdict(bool holds) { return holds ? Verdict::holds : Verdict::falls_short; }
-
 Claim order_claim(const OrderResults& results, OrderCase which) {
   Claim claim{.id = fmt::format("order-{}", name(which))};
   std::replace(claim.id.begin(), claim.id.end(), ' ', '-');
@@ -52,7 +50,7 @@ Claim order_claim(const OrderResults& results, OrderCase which) {
     }
   }
   claim.measured = fmt::format("{} of {} integrators, farthest {:.3f}", holding, all, farthest);
-  claim.verdict = all == 0 ? Verdict::not_tested : verdict(holding == all);
+  claim.verdict = all == 0 ? Verdict::not_tested : verdict_of(met(holding == all));
   return claim;
 }
 
@@ -111,8 +109,8 @@ std::vector<Claim> claims_of(const OrderResults& results) {
                            by_independent_codes(results) ? "independent codes" : "two methods of one library"),
        .paper_value = fmt::format("<= {:.0e}; each code <= {:.0e}", accepted_agreement, accepted_of_each),
        .measured = fmt::format("{:.1e} in extended precision, {:.1e} the farthest of all", closest, farthest),
-       .verdict =
-           results.references.empty() ? Verdict::not_tested : verdict(accepted && farthest <= accepted_of_each)});
+       .verdict = results.references.empty() ? Verdict::not_tested
+                                             : verdict_of(met(accepted && farthest <= accepted_of_each))});
 
   double deviation = 0.0;
   std::string farthest_method;
@@ -133,7 +131,7 @@ std::vector<Claim> claims_of(const OrderResults& results) {
   for (const DiscreteExact& d : results.discrete)
     if (!d.diagnosis.empty())
       discrete.reason += fmt::format("{}{}: {}", discrete.reason.empty() ? "" : "; ", d.integrator, d.diagnosis);
-  discrete.verdict = results.discrete.empty() ? Verdict::not_tested : verdict(deviation <= discrete_gate);
+  discrete.verdict = results.discrete.empty() ? Verdict::not_tested : verdict_of(met(deviation <= discrete_gate));
   claims.push_back(discrete);
 
   claims.push_back(
@@ -142,20 +140,20 @@ std::vector<Claim> claims_of(const OrderResults& results) {
        .paper_value = "within the rounding bound",
        .measured = fmt::format("{:.1e} N of {:.2g} N", results.force.deviation, results.force.largest_force),
        .bound_or_interval = fmt::format("bound {:.1e} N", results.force.bound),
-       .verdict = verdict(results.force.ratio <= 1.0)});
+       .verdict = verdict_of(met(results.force.ratio <= 1.0))});
   const double jump = largest_jump(results);
   claims.push_back({.id = "cut-jump",
                     .text = "energy, momentum and angular momentum stay at a cut",
                     .paper_value = fmt::format("<= {:.0e} relative", jump_gate),
                     .measured = fmt::format("{:.1e}", jump),
-                    .verdict = verdict(jump <= jump_gate)});
+                    .verdict = verdict_of(met(jump <= jump_gate))});
   const ConservedDrift& drift = results.drift;
   claims.push_back({.id = "energy-momentum-drift",
                     .text = fmt::format("the energy-momentum scheme keeps the energy at h omega = {:g}, across a cut",
                                         drift.h_omega),
                     .paper_value = fmt::format("<= {:.0e} relative", drift_gate),
                     .measured = fmt::format("{:.1e} in {} steps", drift.drift, drift.steps),
-                    .verdict = verdict(drift.diagnosis.empty() && drift.drift <= drift_gate),
+                    .verdict = verdict_of(met(drift.diagnosis.empty() && drift.drift <= drift_gate)),
                     .reason = drift.diagnosis});
   const KeptFactor& factor = results.factor;
   claims.push_back(
@@ -165,8 +163,8 @@ std::vector<Claim> claims_of(const OrderResults& results) {
        .measured = fmt::format("{} instead of {} in {} steps", factor.kept, factor.fresh, factor.steps),
        .bound_or_interval =
            fmt::format("{:.1e} edges apart; the error of the step is {:.1e}", factor.difference, factor.step_error),
-       .verdict = verdict(factor.diagnosis.empty() && factor.fresh >= savings_gate * factor.kept &&
-                          factor.difference <= kept_difference * factor.step_error),
+       .verdict = verdict_of(met(factor.diagnosis.empty() && factor.fresh >= savings_gate * factor.kept &&
+                                 factor.difference <= kept_difference * factor.step_error)),
        .reason = factor.diagnosis});
   return claims;
 }

@@ -42,7 +42,7 @@ std::vector<Mesh> bodies_of_all_sizes(const Mesh& paper) {
 
 Claim tried_out(PaperClaimId id, const ClaimAnswer& tried, std::string where) {
   const bool is_met = tried.holds != is_impossibility(id);
-  return answered(id, is_met ? Met::yes : Met::no, tried.measured, std::move(where));
+  return answered(id, met(is_met), tried.measured, std::move(where));
 }
 
 std::vector<Claim> answer_by_trials(const Problem& problem) {

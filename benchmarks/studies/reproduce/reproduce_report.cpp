@@ -29,8 +29,6 @@ bool partitions(const Map3& map) {
   return once;
 }
 
-Met met(bool holds) { return holds ? Met::yes : Met::no; }
-
 }  // namespace
 
 ReproduceGates gates_of(const std::vector<CountAgreement>& counts, const std::vector<MotionAgreement>& motion,
@@ -157,7 +155,7 @@ std::string closing_words(const std::vector<Claim>& claims, bool gates_passed, b
   text += in_words(claims) + "\n";
   if (reproduce_exit_code(claims, gates_passed) != 0)
     text +=
-        "What failed or fell short is listed above and in claims.md; "
+        "What failed or fell short is listed above and in report.html; "
         "run again with another --seed to see whether it persists.";
   else
     text +=

@@ -16,20 +16,6 @@ std::string percent(const Interval& i) {
                      100.0 * i.coverage);
 }
 
-Claim target(std::string id, std::string text, std::string bound, std::string measured, std::string interval, Met met,
-             std::string reason) {
-  Claim claim{.id = std::move(id),
-              .text = std::move(text),
-              .paper_value = std::move(bound),
-              .measured = std::move(measured),
-              .bound_or_interval = std::move(interval)};
-  judge(claim, met);
-  if (met == Met::no) claim.reason = std::move(reason);
-  return claim;
-}
-
-Met none(std::size_t bytes) { return bytes == 0 ? Met::yes : Met::no; }
-
 }  // namespace
 
 Table features_table(const AblationFigures& r) {
@@ -106,11 +92,11 @@ std::vector<Claim> claims_of(const AblationFigures& r) {
   const AblationBytes bare = r.bytes.at("bare");
   claims.push_back(target("bare-scene-holds-no-dart",
                           "such a scene holds no dart, and no column of what it does not request", "0 bytes",
-                          fmt::format("{} bytes", bare.not_asked_for), "exact", none(bare.not_asked_for), ""));
+                          fmt::format("{} bytes", bare.not_asked_for), "exact", met(bare.not_asked_for == 0), ""));
   claims.push_back(target("unasked-damping-bytes", "damping that is not requested takes no byte", "0 bytes",
                           fmt::format("{} bytes for {} springs; {} where it is requested", bare.damping, bare.springs,
                                       r.bytes.at("bare + damping").damping),
-                          "exact", none(bare.damping), "springs hold it"));
+                          "exact", met(bare.damping == 0), "springs hold it"));
   const std::map<std::string, std::string> ids{{"loop", "unasked-terms-time"},
                                                {"loop and detector", "detector-time"},
                                                {"watched loop", "speed-check-time"},

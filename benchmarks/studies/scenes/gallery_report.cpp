@@ -4,8 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/escape.h"
-
 namespace dartboard {
 
 Table gallery_table(const std::vector<ShownScene>& all) {
@@ -23,25 +21,17 @@ Table gallery_table(const std::vector<ShownScene>& all) {
   return table;
 }
 
-std::string gallery_page(const std::vector<ShownScene>& all) {
-  std::string page = "# Gallery\n\nEach scene at four times of its run, drawn from its own output.\n";
+Table shown_table(const std::vector<ShownScene>& all) {
+  Table table({{"scene"}, {"file"}, {"what it shows"}, {"why that is expected"}});
   for (const ShownScene& s : all) {
-    page += fmt::format(
-        "\n## {0}\n\n{1}\n\n![{0}]({2}.png)\n\n{3}: {4}, {5}, {6} steps, {7} operations; {8} of {9} "
-        "expectations hold.",
-        markdown_text(s.scene.name), markdown_line(s.scene.about), file_name_of(s.scene.name), markdown_code(s.file),
-        s.map, s.scene.integrator, s.steps, s.operations, s.held, s.expected);
-    const Expectation& expect = s.scene.expect;
-    if (!expect.why.empty()) page += " " + markdown_line(expect.why);
-    page += "\n";
-    std::string places;
-    for (const ExpectedPlace& place : expect.places)
+    std::string why = s.scene.expect.why;
+    for (const ExpectedPlace& place : s.scene.expect.places)
       if (!place.why.empty())
-        places += fmt::format("- {}{}: {}\n", place.of_part ? "the part of " : "",
-                              markdown_text(s.scene.probes.at(place.probe).name), markdown_line(place.why));
-    if (!places.empty()) page += "\n" + places;
+        why += fmt::format("{}{}{}: {}", why.empty() ? "" : "\n", place.of_part ? "the part of " : "",
+                           s.scene.probes.at(place.probe).name, place.why);
+    table.add_row({s.scene.name, s.file, s.scene.about, why});
   }
-  return page;
+  return table;
 }
 
 nlohmann::ordered_json to_json(const ShownScene& s) {

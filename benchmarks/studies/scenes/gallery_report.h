@@ -25,8 +25,8 @@ struct ShownScene {
 /// A row for each scene.
 Table gallery_table(const std::vector<ShownScene>& all);
 
-/// The page with their pictures, in Markdown.
-std::string gallery_page(const std::vector<ShownScene>& all);
+/// What each scene shows, and why.
+Table shown_table(const std::vector<ShownScene>& all);
 
 nlohmann::ordered_json to_json(const ShownScene& shown);
 

@@ -62,8 +62,8 @@ Report gallery_study(const std::vector<std::filesystem::path>& scene_files, Stud
           fmt::format("{}: {} of {} expectations hold", shortened(shown.scene.name, 100), shown.held, shown.expected));
     all.push_back(std::move(shown));
   }
-  report.tables = {{"", "", gallery_table(all)}};
-  report.pages = {{"gallery.md", gallery_page(all)}};
+  report.tables = {{"runs", "Each scene run and judged", gallery_table(all)},
+                   {.name = "scenes", .heading = "What each scene shows", .table = shown_table(all), .on_page = true}};
   report.data_files = {{"gallery.json", report.numbers}};
   return report;
 }

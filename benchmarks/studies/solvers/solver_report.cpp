@@ -18,7 +18,6 @@ constexpr double crossover_gate = 0.25;
 constexpr double step_gate_ms = 0.9;
 constexpr std::string_view default_policy = "as by default";
 
-Verdict verdict(bool holds) { return holds ? Verdict::holds : Verdict::falls_short; }
 // "by rows, AMD" or "by terms, AMD", whichever is faster, and the same for METIS.
 struct UpdateFigures {
   Figure amd, metis;  // again / follows, the same ordering
@@ -52,7 +51,7 @@ void claim_accuracy(const SolverResults& results, std::vector<Claim>& claims) {
                     .paper_value = fmt::format("<= {:.0e}", componentwise_gate),
                     .measured = fmt::format("{:.1e}, {:.1e} before", after, before),
                     .bound_or_interval = fmt::format("{} systems solved, {} ended with a diagnosis", solved, failed),
-                    .verdict = verdict(after <= componentwise_gate && failed == 0)});
+                    .verdict = verdict_of(met(after <= componentwise_gate && failed == 0))});
   const PathSummary pcg = summary_of(results.cells, SolvePath::conjugate_gradients);
   claims.push_back(
       {.id = "solve-iterative",
@@ -60,7 +59,7 @@ void claim_accuracy(const SolverResults& results, std::vector<Claim>& claims) {
        .paper_value = fmt::format("<= {:.0e}, or a diagnosis", componentwise_gate),
        .measured = fmt::format("{:.1e}, {:.1e} before", pcg.after, pcg.before),
        .bound_or_interval = fmt::format("{} systems solved, {} said not converged", pcg.solved, pcg.diagnosed),
-       .verdict = pcg.solved == 0 ? Verdict::not_tested : verdict(pcg.after <= componentwise_gate)});
+       .verdict = pcg.solved == 0 ? Verdict::not_tested : verdict_of(met(pcg.after <= componentwise_gate))});
 }
 
 void claim_indefinite(const SolverResults& results, std::vector<Claim>& claims) {
@@ -76,7 +75,7 @@ void claim_indefinite(const SolverResults& results, std::vector<Claim>& claims) 
                     .text = "indefinite matrices, by a dense eigenvalue, that pass as solved",
                     .paper_value = "0",
                     .measured = fmt::format("{} of {}", passed, results.indefinite.size()),
-                    .verdict = verdict(passed == 0),
+                    .verdict = verdict_of(met(passed == 0)),
                     .reason = worst_case});
 }
 
@@ -95,7 +94,7 @@ void claim_edits(const SolverResults& results, std::vector<Claim>& claims) {
        .text = fmt::format("normwise backward error during {} edits, as the factor follows by default", edits),
        .paper_value = fmt::format("<= {:.0e}", edits_gate),
        .measured = fmt::format("{:.1e}", largest),
-       .verdict = verdict(largest <= edits_gate)});
+       .verdict = verdict_of(met(largest <= edits_gate))});
 }
 
 void claim_updates(const SolverResults& results, std::vector<Claim>& claims) {

@@ -95,7 +95,11 @@ Report solver_study(const SolverPlan& plan, StudyLog& log) {
     for_each_sample(found, [&](const nlohmann::json& sample) { log.sample(sample); });
     append(results, std::move(found));
   }
-  Report report{.tables = tables_of(results), .claims = claims_of(results)};
+  Report report{.tables = tables_of(results),
+                .claims = claims_of(results),
+                .limits = {"The law of the crossover was tuned on these bodies.",
+                           "A dissociation is followed row by row only where the kept factor was linearised at the "
+                           "present state."}};
   if (std::ranges::any_of(results.crossovers, [](const Crossover& c) { return c.failure.empty(); }))
     report.pictures.push_back({"crossover", crossover_plot(results.crossovers)});
   return report;

@@ -27,10 +27,6 @@ bool by_threads(const char* task) {
 /// The fastest way on one thread.
 const char* best_alone(const StepCounts& counts) { return counts.lanes ? padded : one; }
 
-Claim target(std::string id, std::string text, std::string asked) {
-  return {.id = std::move(id), .text = std::move(text), .paper_value = std::move(asked)};
-}
-
 void not_tested(Claim& claim, std::string reason) {
   claim.verdict = Verdict::not_tested;
   claim.reason = std::move(reason);
@@ -38,7 +34,7 @@ void not_tested(Claim& claim, std::string reason) {
 
 /// Why a body and its task were not timed.
 std::string reason_without(const StepCosts& c, const std::string& body, const char* task) {
-  if (!c.counts.contains(body)) return "a quick run has no body of this size: leave out --quick";
+  if (!c.counts.contains(body)) return too_quick;
   return by_threads(task) ? "there is one processor" : "the processor does not take four springs at a time";
 }
 
@@ -54,7 +50,10 @@ Claim claim_over_graph(const StepCosts& c, const char* id, const std::string& bo
   const Figure f = c.over(body, task, graph);
   made.measured = fmt::format("{:.3f}", f.median);
   made.bound_or_interval = to_string(f.interval);
-  judge(made, at_most(f, most));
+  judge(
+      made, at_most(f, most),
+      "where a body does not fit the caches, a step takes the time of its bytes: the table of limits has how near it is "
+      "to that");
   return made;
 }
 
@@ -76,8 +75,10 @@ Claim claim_on_gain(const StepCosts& c, const char* id, std::size_t tetrahedra, 
     copied += fmt::format("{}{:.2f}", shuffled ? " / " : "", c.over(body, copy, copy_by_threads).median);
     met = std::min(met, at_least(f, least));
   }
-  judge(made, met);
-  if (met == Met::no) made.reason = "all processors copy columns as large " + copied + " times as fast as one";
+  judge(made, met,
+        "all processors copy columns as large " + copied +
+            " times as fast as one: they share the memory, and only "
+            "fewer bytes would gain more");
   return made;
 }
 
@@ -178,7 +179,7 @@ std::vector<Claim> claims_of(const StepCosts& c) {
                            "0 differ");
   agreement.measured = fmt::format("{} differ", differing);
   agreement.bound_or_interval = fmt::format("of {} bodies", c.counts.size());
-  judge(agreement, differing == 0 && !c.counts.empty() ? Met::yes : Met::no);
+  judge(agreement, met(differing == 0 && !c.counts.empty()));
   std::vector<Claim> claims{
       agreement,
       claim_over_graph(c, "step-liver-damped", paper_step_body(true), padded, most_damped),

@@ -14,9 +14,8 @@ constexpr double most_after_changes = 1.15;
 
 /// The worst change of one body.
 Claim claim_after_changes(const ChangedCosts& c, const char* id, const std::string& body) {
-  Claim made{.id = id,
-             .text = fmt::format("{}, after up to half of it has changed: a step over one of a fresh body", body),
-             .paper_value = fmt::format("<= {:g} for each", most_after_changes)};
+  Claim made = target(id, fmt::format("{}, after up to half of it has changed: a step over one of a fresh body", body),
+                      fmt::format("<= {:g} for each", most_after_changes));
   Met met = Met::yes;
   double worst = -std::numeric_limits<double>::infinity();
   std::size_t changes = 0;
@@ -31,15 +30,14 @@ Claim claim_after_changes(const ChangedCosts& c, const char* id, const std::stri
     }
   }
   if (changes == 0) {
-    made.reason = "a quick run has no body of this size: leave out --quick";
+    made.reason = too_quick;
     return made;
   }
   made.measured = fmt::format("{:.3f}, the largest of {}", worst, changes);
-  judge(made, met);
-  if (met == Met::no)
-    made.reason =
-        "until a sixteenth is scattered, what changes add lies at the end of the columns, and what was last in the gaps "
-        "of what they remove";
+  judge(
+      made, met,
+      "until a sixteenth is scattered, what changes add lies at the end of the columns, and what was last in the gaps "
+      "of what they remove");
   return made;
 }
 
@@ -61,14 +59,12 @@ std::size_t ChangedCosts::count_differing() const {
 
 std::vector<Claim> claims_of(const ChangedCosts& c) {
   const std::size_t differing = c.count_differing();
-  Claim agreement{.id = "step-changed-agreement",
-                  .text =
-                      "changed bodies and fresh bodies of the same cells and vertices have equal counts of springs, "
-                      "and the same forces within the bound of rounding",
-                  .paper_value = "0 differ",
-                  .measured = fmt::format("{} differ", differing),
-                  .bound_or_interval = fmt::format("of {} changed bodies", c.cases.size())};
-  judge(agreement, differing == 0 && !c.cases.empty() ? Met::yes : Met::no);
+  const Claim agreement = target(
+      "step-changed-agreement",
+      "changed bodies and fresh bodies of the same cells and vertices have equal counts of springs, and the same "
+      "forces within the bound of rounding",
+      "0 differ", fmt::format("{} differ", differing), fmt::format("of {} changed bodies", c.cases.size()),
+      met(differing == 0 && !c.cases.empty()));
   std::vector<Claim> claims{agreement};
   for (const auto& [id, tetrahedra] : {std::pair{"step-changed-medium", 100'000}, {"step-changed-large", 1'000'000}}) {
     const std::string body = step_box(static_cast<std::size_t>(tetrahedra), false);

@@ -60,15 +60,14 @@ Claim claim_on_predictions(const std::vector<AuditedPair>& pairs) {
   if (pairs.size() < pairs_asked)
     claim.reason = "fewer pairs were drawn";
   else
-    claim.verdict = long_ones >= pairs_asked ? Verdict::holds : Verdict::falls_short;
+    judge(claim, met(long_ones >= pairs_asked));
   return claim;
 }
 
 // A pick that missed its error is cheap for another one: it has no regret to count.
 Claim claim_on_regret(std::string id, const std::vector<AuditedPair>& pairs) {
-  Claim claim{.id = std::move(id),
-              .text = "median cost over that of the cheapest setting of a sweep of all methods",
-              .paper_value = "<= 1.2"};
+  Claim claim =
+      target(std::move(id), "median cost over that of the cheapest setting of a sweep of all methods", "<= 1.2");
   std::vector<double> regrets;
   std::size_t left_out = 0;
   for (const AuditedPair& p : pairs) {
@@ -93,9 +92,7 @@ Claim claim_on_regret(std::string id, const std::vector<AuditedPair>& pairs) {
 }
 
 Claim claim_on_pilots(const std::vector<AuditedPair>& pairs) {
-  Claim claim{.id = "recommend-pilots",
-              .text = "time of the pilots over that of the run, runs longer than 5 s",
-              .paper_value = "<= 20 %"};
+  Claim claim = target("recommend-pilots", "time of the pilots over that of the run, runs longer than 5 s", "<= 20 %");
   std::vector<double> parts;
   for (const AuditedPair& p : pairs)
     if (has_pick(p) && p.audit.actual_s > long_run_s) parts.push_back(p.pilot_part());
@@ -104,7 +101,10 @@ Claim claim_on_pilots(const std::vector<AuditedPair>& pairs) {
   } else {
     const double most = *std::ranges::max_element(parts);
     claim.measured = fmt::format("at most {:.1f} %, {} runs", 100.0 * most, parts.size());
-    claim.verdict = most <= most_pilots ? Verdict::holds : Verdict::falls_short;
+    judge(
+        claim, met(most <= most_pilots),
+        "through contact, and under loads that change in time, no part of a motion predicts the rest: pilots are whole runs "
+        "there");
   }
   return claim;
 }

@@ -109,7 +109,7 @@ constexpr std::string_view reading =
 
 constexpr std::string_view reading_of_long_motions =
     "Scenes and errors are drawn from the seed. Errors are in mean edge lengths, the largest of eight checkpoints, "
-    "against a run in extended precision that another library confirms (scenes.md: how far they differ; ten times that "
+    "against a run in extended precision that another library confirms (the table of scenes says how far they differ; ten times that "
     "is what can be judged). Seconds are as recommend prints them, nothing is corrected. 'seen' is the part of the "
     "motion that the longest pilots of the pick ran: the rest is predicted. Counted are runs that cost 20 times their "
     "pilots. Regret is the cost of the pick over that of the cheapest setting of a sweep of all methods, interpolated "
@@ -144,6 +144,12 @@ Report audit_study(AuditKind kind, std::uint64_t seed, bool quick, const std::ve
       {name, is_long ? "Recommendations for long motions and what happened" : "Recommendations and what happened",
        audit_table(kind, pairs), std::string(is_long ? reading_of_long_motions : reading)}};
   report.claims = audit_claims(kind, pairs);
+  report.limits = {
+      "Which methods are tried depends on timings, so that picks which cost nearly the same change from run to run.",
+      "The floor of rounding is calibrated on chains, the paper's body and a damped beam; chaos is not in it.",
+      "The reference of the swinging liver is confirmed by a second method of the same library only.",
+      "Pilots do not see what happens later: a body that crumples after a cut may miss its error, and one that comes to "
+      "rest costs many times what the cheapest method would take."};
   const std::string subtitle = fmt::format("{} pairs of {} and an error, seed {}", pairs.size(),
                                            is_long ? "a long motion" : "an unseen scene", seed);
   report.pictures = {{name, audit_plot(kind, pairs, subtitle)}};

@@ -71,10 +71,18 @@ Report study_scene(const std::string& scene_name, const TradeoffPlan& plan, Stud
 
   const std::string stem = file_name_of(scene.name);  // the name of the files
   Report report;
-  report.tables = {{"", "", winners_table(study)},
-                   {"", "Regret of a fixed choice", regrets_table(study),
-                    "Omissions\n\n" + bullets(study.omissions, terminal_text)}};
-  report.pages = {{stem + ".md", tradeoff_page(study, stem)}};
+  report.tables = {
+      {stem, "The cheapest method for an error", winners_table(study),
+       fmt::format("{}; T omega_max = {:.4g}; {}. Reference: {}; errors below {:.1e} edges say nothing.", study.what,
+                   study.duration * study.fastest_rate, sizes_in_words(study.vertices, study.springs, study.pieces),
+                   study.reference.what, study.reference.floor)},
+      {stem + "-regrets", "Regret of a fixed choice", regrets_table(study)},
+      {.name = stem + "-runs",
+       .heading = "All runs",
+       .table = points_table(study),
+       .note = reading_of_costs(),
+       .on_page = true}};
+  for (const std::string& omission : study.omissions) report.limits.push_back(scene.name + ": " + omission);
   report.pictures = {{stem, work_precision_plot(study)}};
   report.numbers = summary_of(study);
   if (const std::string trouble = trouble_of(study); !trouble.empty()) report.disagreements.push_back(trouble);

@@ -3,24 +3,22 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <string_view>
-
-#include "core/base/escape.h"
 
 namespace dartboard {
 namespace {
 
 std::string show(double x) { return std::isfinite(x) ? fmt::format("{:.3g}", x) : "-"; }
 
-constexpr std::string_view reading =
-    "Costs are processor time, in units of the time of one evaluation of the forces of the same system, timed in turn "
-    "with the runs; a run includes all of its factorisations and what its scene does to the body. An error is the root "
-    "mean square over the mass, the largest over time. Between two steps the cost and the step are interpolated on the "
-    "log-log scale; the step of a method that chooses its steps is their mean. The regret of a fixed choice is its cost over that of the best; '-' "
-    "where it does not reach the error. A point is dominated when another is no less accurate and its slowest "
-    "repetition is faster than the fastest of the point.";
-
 }  // namespace
+
+std::string reading_of_costs() {
+  return "Costs are processor time, in units of the time of one evaluation of the forces of the same system, timed in turn "
+         "with the runs; a run includes all of its factorisations and what its scene does to the body. An error is the root "
+         "mean square over the mass, the largest over time. Between two steps the cost and the step are interpolated on the "
+         "log-log scale; the step of a method that chooses its steps is their mean. The regret of a fixed choice is its cost over that of the best; '-' "
+         "where it does not reach the error. A point is dominated when another is no less accurate and its slowest "
+         "repetition is faster than the fastest of the point.";
+}
 
 std::vector<double> decades(const WorkPrecision& study) {
   std::vector<double> errors;
@@ -100,24 +98,6 @@ Table points_table(const WorkPrecision& study) {
          bad ? p.diagnosis : fmt::format("{}{}", name(p.standing), p.under_floor ? ", under the floor" : "")});
   }
   return table;
-}
-
-std::string bullets(const std::vector<std::string>& lines, std::string (*escaped)(std::string_view)) {
-  std::string text;
-  for (const std::string& line : lines) text += fmt::format("- {}\n", escaped(line));
-  return text;
-}
-
-std::string tradeoff_page(const WorkPrecision& study, const std::string& stem) {
-  return fmt::format(
-      "# The trade between speed and accuracy: {}\n\n{}. T omega_max = {:.4g}; "
-      "{}.\nReference: {}; errors below {:.1e} edges say nothing.\n\n![diagram]({}.svg)\n\n"
-      "## The cheapest method for an error\n\n{}\n## Regret of a fixed choice\n\n{}\n{}\n\n## All "
-      "runs\n\n{}\n## Omissions\n\n{}",
-      markdown_text(study.scene), markdown_line(study.what), study.duration * study.fastest_rate,
-      sizes_in_words(study.vertices, study.springs, study.pieces), study.reference.what, study.reference.floor, stem,
-      to_markdown(winners_table(study)), to_markdown(regrets_table(study)), reading, to_markdown(points_table(study)),
-      bullets(study.omissions, markdown_text));
 }
 
 }  // namespace dartboard

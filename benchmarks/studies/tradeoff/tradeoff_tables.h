@@ -1,8 +1,7 @@
 #pragma once
-// The text of `dartboard tradeoff` on a scene: tables, and the page that holds them.
+// The tables of `dartboard tradeoff` on a scene.
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "benchmarks/harness/table.h"
@@ -20,10 +19,7 @@ Table regrets_table(const WorkPrecision& study);
 /// All runs.
 Table points_table(const WorkPrecision& study);
 
-/// A list of lines, each escaped for its place.
-std::string bullets(const std::vector<std::string>& lines, std::string (*escaped)(std::string_view));
-
-/// The page of a scene in Markdown, which shows the picture "`stem`.svg" in the same folder.
-std::string tradeoff_page(const WorkPrecision& study, const std::string& stem);
+/// What costs, errors and regrets are.
+std::string reading_of_costs();
 
 }  // namespace dartboard

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include "benchmarks/figures/gnuplot.h"
 #include "core/plain/error.h"
@@ -112,6 +113,19 @@ TEST_F(PlotTest, PicturesAreDrawnInAFolderGivenByARelativePath) {
   ASSERT_EQ(trouble, "");
   EXPECT_EQ(text("figure.png").substr(1, 3), "PNG");
   EXPECT_NE(text("figure.svg").find("<svg"), std::string::npos);
+}
+
+TEST_F(PlotTest, EveryDiagramOfAFolderIsDrawnForAPaperAsWideAsItsText) {
+  fs::create_directory(folder_ / "part");
+  ASSERT_EQ(draw(small_plot(), folder_ / "part", "figure"), "");
+  ASSERT_TRUE(draw_for_paper(folder_).empty());
+  const std::string pdf = text("part/figure.pdf");
+  ASSERT_EQ(pdf.substr(0, 5), "%PDF-");
+  // 7 inches of 72 points, and 900 pixels to 1400
+  EXPECT_NE(pdf.find("/MediaBox [ 0 0 504 324 ]"), std::string::npos) << pdf;
+  EXPECT_FALSE(fs::exists(folder_ / "part" / "figure-paper.gnuplot"));
+  std::ofstream(folder_ / "other.gnuplot") << "print 1\n";
+  EXPECT_THROW(draw_for_paper(folder_), IoError);
 }
 
 TEST_F(PlotTest, AnAxisThatHasNoLogarithmIsRefused) {

@@ -100,6 +100,16 @@ TEST(Judge, LetsNothingFallShortThatIsOpenAndSaysSo) {
   EXPECT_NE(claim.reason.find("cannot decide"), std::string::npos) << claim.reason;
 }
 
+TEST(Judge, GivesTheCauseToAClaimThatFallsShortAndToNoOther) {
+  const auto reason = [](Met met) { return target("id", "text", "<= 1", "2", "[1, 3]", met, "a cause").reason; };
+  EXPECT_EQ(reason(Met::no), "a cause");
+  EXPECT_EQ(reason(Met::yes), "");
+  EXPECT_NE(reason(Met::open), "a cause") << "an open one has a reason of its own";
+  Claim claim{.reason = "known before"};
+  judge(claim, Met::no);
+  EXPECT_EQ(claim.reason, "known before");
+}
+
 TEST(Claims, AreToldInWords) {
   std::vector<Claim> claims(4, claim_with(Verdict::holds));
   EXPECT_EQ(in_words(claims), "4 claims hold.");

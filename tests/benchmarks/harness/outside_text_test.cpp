@@ -69,21 +69,13 @@ TEST_F(GnuplotString, OfTitlesRunsNothingEither) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "canary"));
 }
 
-TEST(Table, ShowsAnyNameOnOneLineAndInOneCell) {
+TEST(Table, ShowsAnyNameOnOneLine) {
   for (const std::string& name : many_hostile_names(300)) {
     Table table({{"name"}, {"after"}});
     table.add_row({name, "x"});
-    const std::string text = to_text(table), page = to_markdown(table);
+    const std::string text = to_text(table);
     EXPECT_EQ(std::ranges::count(text, '\n'), 3) << name;
-    EXPECT_EQ(std::ranges::count(page, '\n'), 3) << name;
     EXPECT_LT(text.size(), 10000u);
-    const std::string last = page.substr(page.rfind('\n', page.size() - 2) + 1);
-    std::size_t bars = 0;
-    for (std::size_t k = 0; k < last.size(); ++k) {
-      bars += last[k] == '|';
-      k += last[k] == '\\';
-    }
-    EXPECT_EQ(bars, 3u) << last;
   }
 }
 

@@ -67,17 +67,12 @@ TEST_F(RunFolderTest, WritesOnlyIntoItself) {
     EXPECT_THROW(run.write(name, "text"), InputError) << name;
 }
 
-TEST_F(RunFolderTest, HoldsManifestClaimsAndTables) {
+TEST_F(RunFolderTest, HoldsManifestAndClaims) {
   const RunFolder run(folder_);
   run.write_manifest({{"dartboard", "0.1.0"}});
   run.write_claims(std::vector<Claim>{{.id = "arrays", .text = "as fast as arrays", .verdict = Verdict::holds}});
-  Table table({{"walk"}});
-  table.add_row({"lists"});
-  run.write_table("times", "Times", table, "Quick run.");
   EXPECT_EQ(nlohmann::json::parse(contents(folder_ / "manifest.json")).at("dartboard"), "0.1.0");
   EXPECT_EQ(nlohmann::json::parse(contents(folder_ / "claims.json")).at(0).at("verdict"), "holds");
-  EXPECT_NE(contents(folder_ / "claims.md").find("as fast as arrays"), std::string::npos);
-  EXPECT_EQ(contents(folder_ / "times.md"), "# Times\n\n| walk  |\n| ----- |\n| lists |\n\nQuick run.\n");
 }
 
 TEST_F(RunFolderTest, KeepsEveryJsonLineAlreadyWritten) {

@@ -120,6 +120,28 @@ TEST(RecordedFrames, HaveTheForcesFromOutsideWhereTheyAct) {
   EXPECT_EQ(run["frames"][10]["loads"], "");
 }
 
+// Of a cube of a quarter of a metre at rest.
+Eigen::Vector3d sum_of_loads(const char* key, const char* value) {
+  Json scene = moving_box();
+  scene.erase("initial_velocity");
+  scene[key] = Json::parse(value);
+  const auto loads = column<float>(recorded(scene)["frames"][0]["loads"]);
+  Eigen::Vector3d sum(0, 0, 0);
+  for (std::size_t k = 0; k < loads.size(); k += 6) sum += Eigen::Vector3f(&loads[k + 3]).cast<double>();
+  return sum;
+}
+
+TEST(RecordedFrames, HavePressuresThatFollowTheirFacesAndWind) {
+  EXPECT_LT((sum_of_loads("forces", R"([{"plane": {"point": [0.24, 0, 0], "normal": [1, 0, 0]}, "pressure": 80,
+                                         "normals": "current"}])") -
+             Eigen::Vector3d(-5, 0, 0))
+                .norm(),
+            1e-5)
+      << "80 Pa on a sixteenth of a square metre, inwards";
+  EXPECT_LT((sum_of_loads("air", R"({"drag": 2, "velocity": [3, 0, 0]})") - Eigen::Vector3d(0.75, 0, 0)).norm(), 1e-6)
+      << "two faces across the wind";
+}
+
 TEST(RecordedFrames, OfAChainHaveTheMeanTensionOfTheLinksAtEachPoint) {
   const Json run = recorded(Json::parse(R"({"name": "chain", "step": 0.001, "duration": 0.01,
     "body": {"generate": {"chain": {"links": 4, "spacing": 0.1}}},

@@ -56,6 +56,7 @@ Report some_report() {
           .tables = {{"t", "A heading", table, "A note.\n\n- one\n- two"}},
           .claims = {{.id = "one", .text = "a claim", .verdict = Verdict::holds},
                      {.id = "two", .text = "another", .verdict = Verdict::undecided, .reason = "too few"}},
+          .limits = {"No body is round."},
           .pictures = {{"plot", plot}}};
 }
 
@@ -75,8 +76,9 @@ TEST_F(Findings, HaveWhatTheTablesClaimsAndDiagramsOfAStudyShow) {
 TEST_F(Findings, AreShownByThePageOfTheRunWhichCanBeMadeAgain) {
   publish_quietly([](StudyLog&) { return some_report(); });
   const std::string page = text("run/report.html");
-  for (const char* part : {"<td>a &lt;b&gt; &amp; c</td>", "<td class=right>1.25</td>", "An opening.", "<li>two</li>",
-                           "<code>two</code>", "too few", "<figcaption>A plot</figcaption>"})
+  for (const char* part :
+       {"<td>a &lt;b&gt; &amp; c</td>", "<td class=right>1.25</td>", "An opening.", "<li>two</li>", "<code>two</code>",
+        "too few", "<li>No body is round.</li>", "<figcaption>A plot</figcaption>"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("not come to its end"), std::string::npos);
   std::filesystem::remove(run() / report_name);

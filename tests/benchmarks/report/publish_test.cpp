@@ -128,25 +128,27 @@ TEST(PublishJson, IsAloneOnStandardOutputWithNumbersAndClaims) {
   EXPECT_NE(err.find("All is well."), std::string::npos);
 }
 
-TEST_F(Publish, WritesManifestTablesPagesDataSamplesAndClaims) {
+TEST_F(Publish, WritesManifestFindingsDataSamplesAndClaims) {
   const auto [status, text, err] = kept(
       [&](StudyLog& log) {
         EXPECT_TRUE(std::filesystem::exists(out() / "manifest.json")) << "from the start on";
         log.sample({{"k", 1}});
         EXPECT_EQ(contents(out() / "samples.jsonl"), "{\"k\":1}\n") << "at once";
         log.sample({{"k", 2}});
-        return Report{.tables = {{"cells", "A heading", one_cell("a cell"), "A note."}, {"", "", one_cell("shown")}},
+        return Report{.tables = {{"cells", "A heading", one_cell("a cell"), "A note."},
+                                 {.name = "long", .table = one_cell("not for a terminal"), .on_page = true}},
                       .claims = {claim("one", Verdict::holds)},
-                      .pages = {{"page.md", "A page.\n"}},
                       .data_files = {{"numbers.json", {{"answer", 42}}}},
                       .facts = {{"cpu_s", 3}}};
       },
       true);
   EXPECT_EQ(status, 0);
   EXPECT_EQ(contents(out() / "samples.jsonl"), "{\"k\":1}\n{\"k\":2}\n");
-  const std::string table = contents(out() / "cells.md");
-  for (const char* piece : {"A heading", "a cell", "A note."}) EXPECT_NE(table.find(piece), std::string::npos) << table;
-  EXPECT_EQ(contents(out() / "page.md"), "A page.\n");
+  const std::string page = contents(out() / "report.html");
+  for (const char* piece : {"A heading", "a cell", "A note.", "not for a terminal"})
+    EXPECT_NE(page.find(piece), std::string::npos) << piece;
+  for (const char* piece : {"A heading", "a cell", "A note."}) EXPECT_NE(text.find(piece), std::string::npos) << text;
+  EXPECT_EQ(text.find("not for a terminal"), std::string::npos) << text;
   EXPECT_EQ(json_of(out() / "numbers.json")["answer"], 42);
   EXPECT_EQ(json_of(out() / "claims.json").size(), 1u);
   const auto manifest = json_of(out() / "manifest.json");
@@ -157,7 +159,7 @@ TEST_F(Publish, WritesManifestTablesPagesDataSamplesAndClaims) {
   EXPECT_NE(text.find("Written to " + out().string()), std::string::npos) << text;
   std::size_t files = 0;
   for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator(out())) ++files;
-  EXPECT_EQ(files, 9u) << "claims twice, findings and their page, and no file for a table without a name";
+  EXPECT_EQ(files, 6u);
 }
 
 TEST_F(Publish, KeepsThePartsOfAFolderWithinAndCountsThemInTheWhole) {
@@ -174,7 +176,6 @@ TEST_F(Publish, KeepsThePartsOfAFolderWithinAndCountsThemInTheWhole) {
   for (const auto& c : json_of(out() / "inner/claims.json")) inner.push_back(c["id"]);
   EXPECT_EQ(all, (std::vector<std::string>{"first", "second", "third", "fourth"}));
   EXPECT_EQ(inner, (std::vector<std::string>{"second", "third"}));
-  EXPECT_TRUE(std::filesystem::exists(out() / "inner/cells.md"));
   EXPECT_TRUE(std::filesystem::exists(out() / "inner/runs.jsonl"));
 }
 
@@ -292,7 +293,7 @@ TEST_F(Publish, DerivesAStudyAgainFromWhatItHadMeasured) {
   const Publication how{.label = "test", .out = (folder_ / "again").string(), .derives = out().string()};
   published(how, std::ref(study));
   EXPECT_EQ(study.found, 1);
-  for (const char* file : {"t.md", "samples.jsonl", "findings.json", packed_measured_name})
+  for (const char* file : {"samples.jsonl", "findings.json", packed_measured_name})
     EXPECT_EQ(text(std::string("again/") + file), text(std::string("run/") + file)) << file;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "again" / report_name))
       << "a page has links, and is made in its place";

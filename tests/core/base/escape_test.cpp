@@ -128,57 +128,6 @@ TEST(CsvField, IsReadBackAndComputesNothing) {
   }
 }
 
-TEST(MarkdownText, EscapesWhatMarkdownActsOn) {
-  EXPECT_EQ(markdown_text("**a** _b_ `c` ~d~ |e| $f$"), "\\*\\*a\\*\\* \\_b\\_ \\`c\\` \\~d\\~ \\|e\\| \\$f\\$");
-  EXPECT_EQ(markdown_text("<b>&amp;</b>"), "\\<b>\\&amp;\\</b>");
-  EXPECT_EQ(markdown_text("[x](y) [x][y] [x]: y"), "[x\\](y) [x\\][y] [x\\]: y");
-}
-
-TEST(MarkdownText, LeavesNumbersIntervalsAndNamesAlone) {
-  for (const std::string text : {"1.07 [1.06, 1.10]", "<= 1.2", "< 5", "snake_case", "a & b", "2 + 3 = 5", "-0.5"})
-    EXPECT_EQ(markdown_text(text), text);
-}
-
-TEST(MarkdownText, LeavesNothingActiveInAnyName) {
-  for (const std::string& name : many_hostile_names(drawn)) {
-    const std::string text = markdown_text(name);
-    std::string plain, active;
-    for (std::size_t k = 0; k < text.size(); ++k) {
-      if (text[k] == '\\' && k + 1 < text.size()) {
-        plain += text[++k];
-        active += ' ';
-      } else {
-        plain += text[k];
-        active += text[k];
-      }
-    }
-    EXPECT_EQ(plain, terminal_text(name));
-    EXPECT_EQ(active.find_first_of("\\`*~|$\n"), std::string::npos) << text;
-    for (const char* pair : {"](", "][", "]:", "</", "<!", "<?", "&#"})
-      EXPECT_EQ(active.find(pair), std::string::npos) << text;
-    for (char letter = 'a'; letter <= 'z'; ++letter) {
-      EXPECT_EQ(active.find(std::string("<") + letter), std::string::npos) << text;
-      EXPECT_EQ(active.find(std::string("&") + letter), std::string::npos) << text;
-    }
-  }
-}
-
-TEST(MarkdownLine, BeginsNoHeadingListOrQuotation) {
-  EXPECT_EQ(markdown_line("# a"), "\\# a");
-  EXPECT_EQ(markdown_line("> a"), "\\> a");
-  EXPECT_EQ(markdown_line("- a"), "\\- a");
-  EXPECT_EQ(markdown_line("12. a"), "12\\. a");
-  EXPECT_EQ(markdown_line("1) a"), "1\\) a");
-  EXPECT_EQ(markdown_line("      a"), "a");
-  EXPECT_EQ(markdown_line("12 cells"), "12 cells");
-}
-
-TEST(MarkdownCode, IsFencedByMoreBackquotesThanItHolds) {
-  EXPECT_EQ(markdown_code("a"), "`a`");
-  EXPECT_EQ(markdown_code("a``b`"), "``` a``b` ```");
-  EXPECT_EQ(markdown_code(""), "");
-}
-
 TEST(FileNameOf, IsAPlainNameWhateverTheName) {
   EXPECT_EQ(file_name_of("liver_cut-2.1"), "liver_cut-2.1");
   EXPECT_EQ(file_name_of("a b/c"), "a-b-c");

@@ -122,28 +122,6 @@ TEST(TradeoffPoints, HaveTheirSettingErrorsWorkAndStanding) {
                                      "cost [evaluations' time]: 201", "range: 190 .. 230", "standing: it grew"}));
 }
 
-TEST(TradeoffPage, HoldsTheSceneItsReferenceAndTheTables) {
-  WorkPrecision study = three_runs(5e-3);
-  study.what = "four links";
-  study.reference.what = "two codes agree";
-  study.duration = 3.0;
-  study.fastest_rate = 7.0;
-  study.vertices = 5;
-  study.springs = 4;
-  study.omissions = {"first *omission*", "second"};
-  const std::string page = tradeoff_page(study, "stem");
-  EXPECT_TRUE(
-      page.starts_with("# The trade between speed and accuracy: chain\n\nfour links. T omega_max = 21; 5 "
-                       "vertices, 4 springs.\nReference: two codes agree; errors below 5.0e-03 edges say "
-                       "nothing.\n\n![diagram](stem.svg)\n\n## The cheapest method for an error\n\n" +
-                       to_markdown(winners_table(study)) + "\n## Regret of a fixed choice\n\n" +
-                       to_markdown(regrets_table(study)) + "\nCosts are processor time"))
-      << page;
-  EXPECT_TRUE(page.ends_with("\n\n## All runs\n\n" + to_markdown(points_table(study)) + "\n## Omissions\n\n- " +
-                             markdown_text("first *omission*") + "\n- second\n"))
-      << page;
-}
-
 // ---- JSON
 
 Json expected_point() {
