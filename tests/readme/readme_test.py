@@ -8,6 +8,7 @@ PROGRAM is the built dartboard, BUILD_FOLDER the folder for find_package, NAME t
 library only.
 """
 
+import html
 import json
 import os
 import re
@@ -86,7 +87,7 @@ class Readme(unittest.TestCase):
     def test_table_is_that_of_the_committed_run(self):
         heading, table = re.search(r'id="run-\d+-\d+-timing-1">(.*?)</h3>(.*?)</table>', text_of("results", "xeon", "report.html"), re.S).groups()
         self.assertEqual(heading, "Time per RK4 step")
-        cells = [re.findall(r"<td.*?>(.*?)</td>", row) for row in table.split("<tbody>")[1].split("<tr>")[1:]]
+        cells = [[html.unescape(cell) for cell in re.findall(r"<td.*?>(.*?)</td>", row)] for row in table.split("<tbody>")[1].split("<tr>")[1:]]
         measured = {row[0]: row for row in cells}
         order = ["coverage", "coverage-every", "lists", "lists-every", "arrays", "columns", "graph", "cgal-coverage", "cgal-attributes"]
         section = README.split("## The paper\n")[1].split("\n## ")[0]
